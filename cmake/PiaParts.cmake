@@ -1,0 +1,23 @@
+# Optional and required parts. A part gives its module include paths and a definition; the library links it.
+
+find_package(PkgConfig REQUIRED)
+set(PIA_PART_LIBRARIES "")
+
+pkg_check_modules(JANSSON REQUIRED IMPORTED_TARGET jansson)
+list(APPEND PIA_PART_LIBRARIES PkgConfig::JANSSON)
+
+# pia_part(NAME pkg-config-module): sets PIA_HAVE_NAME and the imported target PkgConfig::NAME as PIA_WITH_NAME asks.
+macro(pia_part name)
+  set(PIA_HAVE_${name} OFF)
+  if(NOT PIA_WITH_${name} STREQUAL "OFF")
+    pkg_check_modules(${name} IMPORTED_TARGET ${ARGN})
+    if(${name}_FOUND)
+      set(PIA_HAVE_${name} ON)
+      list(APPEND PIA_PART_LIBRARIES PkgConfig::${name})
+    elseif(PIA_WITH_${name} STREQUAL "ON")
+      message(FATAL_ERROR "PIA_WITH_${name}=ON, but ${ARGN} was not found")
+    endif()
+  endif()
+endmacro()
+
+pia_part(CAIRO cairo)

@@ -1,0 +1,62 @@
+/* Banded systems, small and exact in order: results do not depend on threads, and bandwidth 3 is where LAPACK is four times slower.
+ * Right-hand sides are row-major [n x dim] and are overwritten by the solution. */
+#ifndef PIA_LINALG_BAND_H
+#define PIA_LINALG_BAND_H
+
+#include "context.h"
+
+/* Symmetric positive definite, upper band by rows: h[i * (width + 1) + k] = H(i, i + k), k = 0..width (entries past the last column
+ * are ignored). LDL' in place. Returns the number of pivots that had to be refused: pivot <= threshold * original diagonal; such a
+ * row is decoupled (its unknown becomes 0), its index goes to weak[0..], at most `weak_room` of them (weak may be NULL). */
+pia_index pia_band_ldl_factor(double *h, pia_index n, int width, double threshold, pia_index *weak, pia_index weak_room);
+void pia_band_ldl_solve(const double *ldl, pia_index n, int width, double *b, int dim);
+
+/* The same for a cyclic band: H(i, (i + k) mod n), n > 2 width. The last `width` unknowns are bordered; work is [n x width] plus
+ * [width x width], supplied by the caller as border[(n + width) * width]. */
+pia_index pia_band_cyclic_factor(double *h, pia_index n, int width, double threshold, double *border);
+void pia_band_cyclic_solve(const double *ldl, const double *border, pia_index n, int width, double *b, int dim);
+
+/* Square rows of a collocation matrix: row i has `width` entries, first[i] is the column of its first one, a[i * width + k] the
+ * entry (i, first[i] + k); first is non-decreasing. Factors without pivoting, which is stable for the totally positive matrices of
+ * B-spline interpolation (de Boor, Pinkus 1977). */
+typedef struct pia_band_lu {
+    pia_index n;
+    int lower, upper;   /* bandwidths found */
+    double *entry;      /* [n x (lower + 1 + upper)] */
+    double smallest;    /* smallest |pivot| over the largest entry of its row */
+} pia_band_lu;
+/* PIA_E_DATA with the row when a pivot vanishes (Schoenberg-Whitney fails there). */
+pia_status pia_band_lu_factor(pia_context *context, const double *a, const pia_index *first, pia_index n, int width, pia_band_lu *out);
+void pia_band_lu_solve(const pia_band_lu *lu, double *b, int dim);
+/* Solves the transposed system. */
+void pia_band_lu_solve_transposed(const pia_band_lu *lu, double *b, int dim);
+void pia_band_lu_clear(pia_context *context, pia_band_lu *lu);
+
+/* General band with partial pivoting: entries (i, j), |i - j| bounded by lower and upper, given in a dense row store
+ * a[i * (lower + 1 + upper) + (j - i + lower)]. For KKT systems. PIA_E_DATA with the row when singular. */
+typedef struct pia_band_plu {
+    pia_index n;
+    int lower, upper;
+    double *entry;    /* [n x (2 lower + upper + 1)] */
+    pia_index *pivot; /* [n] */
+} pia_band_plu;
+pia_status pia_band_plu_factor(pia_context *context, const double *a, pia_index n, int lower, int upper, pia_band_plu *out);
+void pia_band_plu_solve(const pia_band_plu *plu, double *b, int dim);
+void pia_band_plu_clear(pia_context *context, pia_band_plu *plu);
+
+/* Least squares by orthogonal factorisation, one row at a time (Givens): rows of `width` entries from column `first`, sorted by
+ * first. r is [columns x width] upper band by rows, q is [columns x dim]; both start as zeros. Cost O(width (width + dim)) a row. */
+typedef struct pia_band_qr {
+    pia_index columns;
+    int width, dim;
+    double *r, *q;
+} pia_band_qr;
+pia_status pia_band_qr_open(pia_context *context, pia_index columns, int width, int dim, pia_band_qr *out);
+/* row [width] and right [dim] are overwritten. */
+void pia_band_qr_add(pia_band_qr *qr, pia_index first, double *row, double *right);
+/* Solution [columns x dim] into x; columns whose diagonal is at most threshold times the largest keep x as it was given.
+ * Returns how many those are. */
+pia_index pia_band_qr_solve(const pia_band_qr *qr, double threshold, double *x);
+void pia_band_qr_close(pia_context *context, pia_band_qr *qr);
+
+#endif

@@ -1,0 +1,26 @@
+/* Parametrizations: from points to parameters, one file each. */
+#ifndef PIA_PARAM_PARAM_H
+#define PIA_PARAM_PARAM_H
+
+#include "context.h"
+
+typedef struct pia_parametrization {
+    const char *name, *title, *reference, *detail;
+    /* parameters [count] of ordered points [count x dim], count >= 2, non-decreasing from exactly 0 to exactly 1. Equal neighbours get
+     * equal parameters where the rule says so. closed: the period ends at 1 where point 0 would come again; the last parameter is then
+     * below 1 (the points do not repeat the first one). degree is for the universal rule. Errors: PIA_E_DATA when all points are
+     * equal, PIA_E_MEMORY. */
+    pia_status (*compute)(pia_context *context, const double *points, pia_index count, int dim, int degree, int closed,
+                          double *parameters);
+} pia_parametrization;
+
+/* The registry, collected from the files param_*.c; NULL past the end. */
+const pia_parametrization *pia_param_list(pia_index index);
+const pia_parametrization *pia_param_find(const char *name);
+
+/* Parameters of a grid [rows x columns x dim]: each direction's rule is averaged over the lines of the other (lines of zero length
+ * do not count). NaN points are left out. closed as above, per direction. u [rows], v [columns]. */
+pia_status pia_param_grid(pia_context *context, const pia_parametrization *rule, const double *points, const pia_index count[2],
+                          int dim, const int degree[2], const int closed[2], double *u, double *v);
+
+#endif
