@@ -1,0 +1,51 @@
+/* One direction of an operator: the rows of basis values of sorted parameters on one knot vector, and how the control points that
+ * the knots see ("full", wrapped and doubled copies included) come from the unknowns. Curves have one, grids two. */
+#ifndef PIA_OP_COLLOCATION_H
+#define PIA_OP_COLLOCATION_H
+
+#include "context.h"
+
+typedef enum pia_map {
+    PIA_MAP_IDENTITY, /* full = unknowns */
+    PIA_MAP_CYCLIC,   /* full = unknowns + degree, full column i is unknown i mod unknowns */
+    PIA_MAP_DOUBLED   /* full = unknowns + 2, the first and the last column repeat their neighbour ([2004] Eq. 2) */
+} pia_map;
+
+typedef struct pia_collocation {
+    int degree;
+    pia_map map;
+    pia_index full, unknowns, rows;
+    const double *knots;      /* [full + degree + 1], borrowed */
+    const double *parameters; /* [rows], non-decreasing, inside the domain, borrowed */
+    pia_index *begin;         /* [full - degree + 1]: rows of span degree + s are begin[s] .. begin[s + 1] - 1 */
+    double *values;           /* [rows x (degree + 1)] basis values, or NULL: evaluated where needed */
+    pia_index shift;          /* square problems: unknown c is moved by row (c + shift) mod rows */
+} pia_collocation;
+
+/* keep_values: store the basis values (8 (degree + 1) bytes a row), for methods that pass over the rows often. */
+pia_status pia_collocation_open(pia_context *context, int degree, pia_map map, const double *knots, pia_index full,
+                                const double *parameters, pia_index rows, int keep_values, pia_collocation *out);
+void pia_collocation_close(pia_context *context, pia_collocation *c);
+/* The parameters behind the pointer have changed (still sorted): spans and values anew. */
+void pia_collocation_rebucket(pia_collocation *c);
+
+/* The degree + 1 basis values of a row on its span: stored ones, or computed into scratch. */
+const double *pia_collocation_row(const pia_collocation *c, pia_index row, pia_index span, double *scratch);
+/* Span of a row; O(log spans). */
+pia_index pia_collocation_span(const pia_collocation *c, pia_index row);
+/* The unknown behind a full column. */
+pia_index pia_collocation_unknown(const pia_collocation *c, pia_index column);
+
+/* Along one direction of an array seen as [before x (length) x after] doubles:
+ * full from unknowns (copies), and unknowns from full (sums: the transposed map). */
+void pia_collocation_expand(const pia_collocation *c, const double *unknowns, pia_index before, pia_index after, double *full);
+void pia_collocation_reduce(const pia_collocation *c, const double *full, pia_index before, pia_index after, double *unknowns);
+
+/* Sum of the basis values in each unknown, weighted by weights [rows] (NULL: 1): sums [unknowns]. */
+void pia_collocation_column_sums(const pia_collocation *c, const double *weights, double *sums);
+
+/* Dense row in the unknowns: entries [width] from column *first, wrapped copies folded in. width is degree + 1; returns 0 when the row
+ * wraps around (cyclic), where *first + k is meant modulo the unknowns. */
+int pia_collocation_entries(const pia_collocation *c, pia_index row, pia_index span, pia_index *first, double *entries);
+
+#endif

@@ -1,0 +1,40 @@
+/* The iterate: everything a method may see and change. */
+#ifndef PIA_OP_ITERATE_H
+#define PIA_OP_ITERATE_H
+
+#include "normal.h"
+
+struct pia_constraints;
+
+typedef struct pia_iterate {
+    pia_context *context;
+    pia_op *op;
+    pia_normal *normal;  /* least squares: the normal form; NULL: gradients pass over the data */
+    pia_targets targets;
+    int dim;
+    double extent;       /* diagonal of the data's bounding box, > 0 */
+    double *points;      /* P [cols x dim], centred on the targets' origin */
+    double *adjust;      /* D [cols x dim]; a fused step writes the next P here instead */
+    double *residual;    /* R [rows x dim]; NULL unless the method asked for rows */
+    struct pia_constraints *constraints; /* NULL: none */
+    pia_index iteration; /* updates done */
+    pia_errors errors;   /* of P, when errors_known */
+    int errors_known;
+    double adjust_max;        /* largest |D_i| of the step just computed */
+    double relative_gradient; /* of P; NAN when the method has none */
+    int stalled;              /* set by a method or limiter: no step helps any more */
+    pia_status (*project)(struct pia_iterate *iterate); /* moves the parameters to the closest points of the current iterate; NULL where
+                                                           not offered */
+    void *owner;              /* of project */
+} pia_iterate;
+
+/* R and errors of the current P (one pass over the data); nothing when they are known. */
+void pia_iterate_measure(pia_iterate *iterate);
+/* G [cols x dim] = A'W(Q - A P), zero where frozen: from the normal form, or from R (which pia_iterate_measure has filled). Sets
+ * relative_gradient. */
+void pia_iterate_gradient(pia_iterate *iterate, double *gradient);
+/* Sum of products of x and y [cols x dim], in fixed order; and the largest Euclidean length of a row of x. */
+double pia_iterate_dot(const pia_iterate *iterate, const double *x, const double *y);
+double pia_iterate_longest(const pia_iterate *iterate, const double *x);
+
+#endif
