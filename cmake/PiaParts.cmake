@@ -1,10 +1,13 @@
-# Optional and required parts. A part gives its module include paths and a definition; the library links it.
+# Optional and required parts. A part gives its module include paths and a definition; the library links it, and the installed package
+# asks for the pkg-config modules of PIA_PART_MODULES when it is static.
 
 find_package(PkgConfig REQUIRED)
 set(PIA_PART_LIBRARIES "")
+set(PIA_PART_MODULES "")
 
 pkg_check_modules(JANSSON REQUIRED IMPORTED_TARGET jansson)
 list(APPEND PIA_PART_LIBRARIES PkgConfig::JANSSON)
+list(APPEND PIA_PART_MODULES jansson)
 
 # pia_part(NAME pkg-config-module): sets PIA_HAVE_NAME and the imported target PkgConfig::NAME as PIA_WITH_NAME asks.
 macro(pia_part name)
@@ -14,6 +17,7 @@ macro(pia_part name)
     if(${name}_FOUND)
       set(PIA_HAVE_${name} ON)
       list(APPEND PIA_PART_LIBRARIES PkgConfig::${name})
+      list(APPEND PIA_PART_MODULES ${ARGN})
     elseif(PIA_WITH_${name} STREQUAL "ON")
       message(FATAL_ERROR "PIA_WITH_${name}=ON, but ${ARGN} was not found")
     endif()
