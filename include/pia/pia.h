@@ -40,6 +40,7 @@ typedef struct pia_points pia_points;      /* points read from a file */
 enum { PIA_AUTO = -1 };                    /* "chosen by the library" for counts, degrees, thresholds */
 enum { PIA_MAX_DEGREE = 25, PIA_MAX_DIM = 16 };
 
+/* What a call answers. */
 typedef enum pia_status {
     PIA_OK,
     PIA_E_ARGUMENT,    /* an argument is out of its range or names something unknown; also pairs that make no sense */
@@ -69,6 +70,7 @@ typedef enum pia_stop {
     PIA_STOP_INFEASIBLE    /* constraints and shape limiter leave no step */
 } pia_stop;
 
+/* How the points are ordered: along a curve, as a grid, or not at all. */
 typedef enum pia_kind { PIA_CURVE, PIA_GRID, PIA_SCATTERED } pia_kind;
 
 /* One fixed sentence for a status; never NULL. */
@@ -80,6 +82,7 @@ const char *pia_version(void);
 
 /* ----------------------------------------------------------------------------------------------- context ---- */
 
+/* How a context works. */
 typedef struct pia_context_options {
     size_t struct_size;
     int threads;                                              /* 1 to 1024; PIA_AUTO: as many as the machine has, used only where they pay */
@@ -90,9 +93,11 @@ typedef struct pia_context_options {
     void *user;                                               /* handed to the three calls above */
 } pia_context_options;
 
+/* The defaults: as many threads as pay, best backend, the C library's memory, silent. */
 void pia_context_options_init(pia_context_options *options);
 /* options NULL: defaults. Errors: PIA_E_ARGUMENT, PIA_E_UNAVAILABLE (backend), PIA_E_MEMORY. */
 pia_status pia_context_create(const pia_context_options *options, pia_context **out);
+/* After everything created with it. */
 void pia_context_destroy(pia_context *context);
 /* Detail of the last failure in this context: one line, valid until the next call with it; "" when nothing failed. */
 const char *pia_message(const pia_context *context);
@@ -125,6 +130,7 @@ int pia_list_parameters(const char *method, pia_index index, pia_parameter *out)
 
 /* ------------------------------------------------------------------------------------------- data to fit ---- */
 
+/* The points and what is known about them. */
 typedef struct pia_data {
     size_t struct_size;
     pia_kind kind;
@@ -153,6 +159,7 @@ typedef struct pia_constraint {
     const double *value;     /* [dim]; NULL: the data point (value constraints at a data row only) */
 } pia_constraint;
 
+/* Zeroes, at_point = PIA_AUTO. */
 void pia_constraint_init(pia_constraint *constraint);
 
 /* State of a fit: cheap to read at any time. Counts and errors are those of the current model. */
@@ -185,6 +192,7 @@ typedef struct pia_trace_row {
     double max_error, rms_error, adjust_max, constraint_error, seconds;
 } pia_trace_row;
 
+/* What to fit, how, and when to stop. */
 typedef struct pia_fit_options {
     size_t struct_size;
     int degree[2];                  /* 1 to PIA_MAX_DEGREE; default 3, 3 */
@@ -225,6 +233,7 @@ typedef struct pia_fit_options {
     void *user;
 } pia_fit_options;
 
+/* The defaults named at the members; zero, NULL or PIA_AUTO where none is named, as their comments say. */
 void pia_fit_options_init(pia_fit_options *options);
 
 /* ------------------------------------------------------------------------ the one call, the progressive service ---- */
@@ -266,6 +275,7 @@ pia_status pia_fit_add_points(pia_fit *fit, const pia_data *more);
 pia_status pia_fit_freeze(pia_fit *fit, const pia_index *control, pia_index count, int frozen);
 /* Adds interpolation constraints; ids count up from *first_id (NULL allowed). Methods that know constraints only. */
 pia_status pia_fit_constrain(pia_fit *fit, const pia_constraint *constraints, pia_index count, pia_index *first_id);
+/* Drops the constraint of this id. */
 pia_status pia_fit_release(pia_fit *fit, pia_index constraint_id);
 /* Inserts a knot; the current model keeps its shape. Least-squares methods only. direction 0 is u. */
 pia_status pia_fit_insert_knot(pia_fit *fit, int direction, double knot);
@@ -273,11 +283,14 @@ pia_status pia_fit_insert_knot(pia_fit *fit, int direction, double knot);
 pia_status pia_fit_save(pia_fit *fit, const char *path);
 /* A fit continued from a file: the next steps give the same bits as if it had never stopped. Callbacks are not saved. */
 pia_status pia_fit_resume(pia_context *context, const char *path, pia_fit **out);
+/* The callback of pia_fit_options for the steps to come; NULL: none. */
 void pia_fit_set_progress(pia_fit *fit, int (*progress)(void *user, const pia_report *so_far), void *user);
+/* Ends a fit and frees it; models taken from it stay. */
 void pia_fit_close(pia_fit *fit);
 
 /* ------------------------------------------------------------------------------------------------- models ---- */
 
+/* What a model is. */
 typedef struct pia_model_info {
     size_t struct_size;
     int directions;          /* 1 curve, 2 surface */
@@ -295,7 +308,9 @@ typedef struct pia_model_info {
  * polynomial model. Errors: PIA_E_ARGUMENT, SHAPE, DATA (not finite), MEMORY, SIZE. */
 pia_status pia_model_create(pia_context *context, int directions, const int *degree, const double *const *knots,
                             const pia_index *control, int dim, const double *points, const double *weights, pia_model **out);
+/* Frees a model; all that was borrowed from it is gone. */
 void pia_model_destroy(pia_model *model);
+/* Fills *out. */
 void pia_model_get_info(const pia_model *model, pia_model_info *out);
 /* Borrowed, [knot_count[direction]]. */
 const double *pia_model_knots(const pia_model *model, int direction);
@@ -304,6 +319,7 @@ const double *pia_model_knots(const pia_model *model, int direction);
 void pia_model_control(const pia_model *model, double *points, double *weights);
 /* The report of the fit that made the model; returns 0 when it was not made by a fit. */
 int pia_model_report(const pia_model *model, pia_report *out);
+/* Note number `index` of the fit that made the model; NULL past the end. */
 const char *pia_model_note(const pia_model *model, pia_index index);
 /* Parameters of the data the model was fitted to, where it carries them: as in pia_fit_parameters; NULL and 0 otherwise. */
 const double *pia_model_parameters(const pia_model *model, pia_index *count);
@@ -336,6 +352,7 @@ pia_status pia_model_length(pia_context *context, const pia_model *model, double
 /* Tight bounding box (of the shape, not of its control points): low [dim], high [dim]. */
 pia_status pia_model_bounds(pia_context *context, const pia_model *model, double *low, double *high);
 
+/* How far points are from a model. */
 typedef struct pia_deviation {
     size_t struct_size;
     pia_index point_count;
@@ -354,12 +371,14 @@ pia_status pia_model_deviation(pia_context *context, const pia_model *model, con
 /* Models of a file; *out is an array of *count models, released by pia_models_destroy. format: a name of the registry "format", NULL:
  * by extension. path "-" is standard input. Errors: PIA_E_FILE, FORMAT (file:line: ...), UNAVAILABLE, MEMORY. */
 pia_status pia_model_read(pia_context *context, const char *path, const char *format, pia_model ***out, pia_index *count);
+/* Frees an array of models and the models in it. */
 void pia_models_destroy(pia_model **models, pia_index count);
 /* Writes models whole or not at all ("-": standard output). Formats that hold samples (csv, npy, obj) take `samples` a direction;
  * PIA_AUTO: enough for a picture. */
 pia_status pia_model_write(pia_context *context, const char *path, const char *format, const pia_model *const *models,
                            pia_index count, pia_index samples);
 
+/* How to read a file of points. */
 typedef struct pia_points_options {
     size_t struct_size;
     const char *format;     /* NULL: by extension */
@@ -369,6 +388,7 @@ typedef struct pia_points_options {
     int allow_nan;          /* 1: NaN is kept (holes of a grid) */
 } pia_points_options;
 
+/* Zeroes and NULL. */
 void pia_points_options_init(pia_points_options *options);
 
 /* What a point file held; arrays belong to the pia_points. */
@@ -386,8 +406,11 @@ typedef struct pia_points_info {
     const char *format;         /* what it was read as */
 } pia_points_info;
 
+/* Points of a file; path "-" is standard input. Errors: PIA_E_ARGUMENT, FILE, FORMAT (file:line: ...), UNAVAILABLE, MEMORY, SIZE. */
 pia_status pia_points_read(pia_context *context, const char *path, const pia_points_options *options, pia_points **out);
+/* Fills *out; its arrays live as long as `points`. */
 void pia_points_get_info(const pia_points *points, pia_points_info *out);
+/* Frees points and all that was borrowed from them. */
 void pia_points_destroy(pia_points *points);
 /* A plain array to .csv, .npy or any text format, whole or not at all. header NULL: none. */
 pia_status pia_table_write(pia_context *context, const char *path, const char *format, const char *header, const double *values,
@@ -395,6 +418,7 @@ pia_status pia_table_write(pia_context *context, const char *path, const char *f
 
 /* ----------------------------------------------------------------------------------------------- pictures ---- */
 
+/* What a picture shows. */
 typedef struct pia_plot_options {
     size_t struct_size;
     const char *format;            /* svg, png, pdf; NULL: by extension */
@@ -408,6 +432,7 @@ typedef struct pia_plot_options {
     const double *parameters;      /* of the points, as in pia_model_deviation; NULL: closest points */
 } pia_plot_options;
 
+/* The defaults named at the members. */
 void pia_plot_options_init(pia_plot_options *options);
 /* Draws models with the points they stand for (points NULL: none; [count x dim] with dim of the first model). Written whole or not at
  * all. Errors: PIA_E_ARGUMENT, FILE, UNAVAILABLE (built without Cairo). */
