@@ -15,7 +15,8 @@ typedef struct pia_iterate {
     double extent;       /* diagonal of the data's bounding box, > 0 */
     double *points;      /* P [cols x dim], centred on the targets' origin */
     double *adjust;      /* D [cols x dim]; a fused step writes the next P here instead */
-    double *residual;    /* R [rows x dim]; NULL unless the method asked for rows */
+    double *residual;    /* R [rows x dim]; NULL unless the method needs rows or there is no normal form */
+    double right_norm;   /* |A'W(Q - origin)|, the scale of relative gradients; 0: unknown, gradients are absolute */
     struct pia_constraints *constraints; /* NULL: none */
     pia_index iteration; /* updates done */
     pia_errors errors;   /* of P, when errors_known */

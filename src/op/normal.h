@@ -22,7 +22,6 @@ struct pia_normal {
     double *right;      /* b [cols x dim] */
     double *diagonal;   /* of H [cols] */
     double *column_sum; /* sum over rows of w N_c [cols] */
-    double right_norm;  /* |b|, the scale of the relative gradient */
     pia_index weak;     /* unknowns the factorisation had to decouple */
     void *state;
 };

@@ -31,10 +31,12 @@ typedef struct pia_op_class {
     const char *name;
     /* values [rows x dim] = A full. */
     void (*apply)(const pia_op *op, const double *full, int dim, double *values);
-    /* full [fulls x dim] = A' values. */
-    void (*gather)(const pia_op *op, const double *values, int dim, double *full);
-    /* residual [rows x dim] = targets - A full, zero in holes; NULL: only the errors are wanted. */
-    pia_errors (*residual)(const pia_op *op, const double *full, const pia_targets *targets, double *residual);
+    /* full [fulls x dim] = A'W values, weights [rows] (NULL: 1). */
+    void (*gather)(const pia_op *op, const double *values, const double *weights, int dim, double *full);
+    /* out [rows x dim] = base + factor * (targets - A full), zero difference in holes; base NULL: 0; out NULL: only the errors are
+     * wanted. The errors are those of the differences. */
+    pia_errors (*residual)(const pia_op *op, const double *full, const pia_targets *targets, const double *base, double factor,
+                           double *out);
     void (*close)(pia_op *op);
 } pia_op_class;
 
@@ -72,9 +74,13 @@ void pia_op_expand(const pia_op *op, const double *x, int dim, double *full);
 void pia_op_reduce(const pia_op *op, const double *full, int dim, double *x);
 
 void pia_op_apply(const pia_op *op, const double *x, int dim, double *values);
-/* x [cols x dim] = A' values, zero where frozen. */
-void pia_op_gather(const pia_op *op, const double *values, int dim, double *x);
+/* x [cols x dim] = A'W values with weights [rows] (NULL: 1), zero where frozen. */
+void pia_op_gather(const pia_op *op, const double *values, const double *weights, int dim, double *x);
+/* residual [rows x dim] = targets - A x, or NULL when only the errors are wanted. */
 pia_errors pia_op_residual(const pia_op *op, const double *x, const pia_targets *targets, double *residual);
+/* One pass of a square operator whose unknown c is moved by row c: next [cols x dim] = x + factor * (targets - A x), frozen unknowns
+ * unchanged. The errors are those of x. */
+pia_errors pia_op_move(const pia_op *op, const double *x, const pia_targets *targets, double factor, double *next);
 
 /* Sets frozen unknowns to zero in x [cols x dim]. */
 void pia_op_mask(const pia_op *op, double *x, int dim);

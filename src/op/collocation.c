@@ -1,0 +1,157 @@
+#include "collocation.h"
+
+#include "basis.h"
+#include "kernel.h"
+#include "knots.h"
+
+#include <string.h>
+
+enum { GRAIN = 16384 }; /* rows a thread should get at least */
+
+static pia_index spans(const pia_collocation *c)
+{
+    return c->full - c->degree;
+}
+
+static void find_begins(pia_collocation *c)
+{
+    pia_index row = 0, last = spans(c) - 1;
+    while (last > 0 && !(c->knots[c->degree + last] < c->knots[c->degree + last + 1])) last--;
+    for (pia_index s = 0; s <= last; s++) {
+        c->begin[s] = row;
+        double right = c->knots[c->degree + s + 1];
+        if (s == last)
+            row = c->rows;
+        else
+            while (row < c->rows && c->parameters[row] < right) row++;
+    }
+    for (pia_index s = last + 1; s <= spans(c); s++) c->begin[s] = c->rows;
+}
+
+static void fill_values(void *work, pia_index chunk)
+{
+    pia_collocation *c = work;
+    pia_index chunks = pia_chunk_count(c->rows, GRAIN);
+    pia_index from = pia_chunk_begin(c->rows, chunks, chunk), to = pia_chunk_begin(c->rows, chunks, chunk + 1);
+    pia_index span = pia_collocation_span(c, from);
+    for (pia_index row = from; row < to; row++) {
+        while (row >= c->begin[span - c->degree + 1]) span++;
+        pia_basis_values(c->knots, c->degree, span, c->parameters[row], c->values + row * (c->degree + 1));
+    }
+}
+
+void pia_collocation_rebucket(pia_collocation *c)
+{
+    find_begins(c);
+    if (c->values != NULL) {
+        pia_index chunks = pia_chunk_count(c->rows, GRAIN);
+        for (pia_index chunk = 0; chunk < chunks; chunk++) fill_values(c, chunk);
+    }
+}
+
+pia_status pia_collocation_open(pia_context *context, int degree, pia_map map, const double *knots, pia_index full,
+                                const double *parameters, pia_index rows, int keep_values, pia_collocation *out)
+{
+    pia_collocation c = {.degree = degree, .map = map, .full = full, .rows = rows, .knots = knots, .parameters = parameters};
+    c.unknowns = map == PIA_MAP_IDENTITY ? full : map == PIA_MAP_CYCLIC ? full - degree : full - 2;
+    if (c.unknowns < 1 || full <= degree)
+        return pia_fail(context, PIA_E_SHAPE, "%lld control points are too few for degree %d", (long long)full, degree);
+    c.begin = pia_take(context, full - degree + 1, sizeof *c.begin);
+    if (c.begin == NULL) return pia_take_status(context, full - degree + 1, sizeof *c.begin);
+    if (keep_values) {
+        c.values = pia_take(context, rows, (size_t)(degree + 1) * sizeof *c.values);
+        if (c.values == NULL) {
+            pia_collocation_close(context, &c);
+            return pia_take_status(context, rows, (size_t)(degree + 1) * sizeof *c.values);
+        }
+    }
+    find_begins(&c);
+    if (keep_values && rows > 0) pia_for_each(context, pia_chunk_count(rows, GRAIN), fill_values, &c);
+    *out = c;
+    return PIA_OK;
+}
+
+void pia_collocation_close(pia_context *context, pia_collocation *c)
+{
+    pia_give(context, c->begin);
+    pia_give(context, c->values);
+    *c = (pia_collocation){0};
+}
+
+pia_index pia_collocation_span(const pia_collocation *c, pia_index row)
+{
+    pia_index low = 0, high = spans(c);
+    while (high - low > 1) {
+        pia_index middle = low + (high - low) / 2;
+        if (c->begin[middle] <= row)
+            low = middle;
+        else
+            high = middle;
+    }
+    while (low > 0 && c->begin[low + 1] <= row) low++;
+    return c->degree + low;
+}
+
+const double *pia_collocation_row(const pia_collocation *c, pia_index row, pia_index span, double *scratch)
+{
+    if (c->values != NULL) return c->values + row * (c->degree + 1);
+    pia_basis_values(c->knots, c->degree, span, c->parameters[row], scratch);
+    return scratch;
+}
+
+pia_index pia_collocation_unknown(const pia_collocation *c, pia_index column)
+{
+    if (c->map == PIA_MAP_IDENTITY) return column;
+    if (c->map == PIA_MAP_CYCLIC) return column % c->unknowns;
+    return column == 0 ? 0 : column > c->unknowns ? c->unknowns - 1 : column - 1;
+}
+
+void pia_collocation_expand(const pia_collocation *c, const double *unknowns, pia_index before, pia_index after, double *full)
+{
+    size_t line = (size_t)after * sizeof *full;
+    for (pia_index b = 0; b < before; b++)
+        for (pia_index i = 0; i < c->full; i++)
+            memcpy(full + (b * c->full + i) * after, unknowns + (b * c->unknowns + pia_collocation_unknown(c, i)) * after, line);
+}
+
+void pia_collocation_reduce(const pia_collocation *c, const double *full, pia_index before, pia_index after, double *unknowns)
+{
+    memset(unknowns, 0, (size_t)(before * c->unknowns * after) * sizeof *unknowns);
+    for (pia_index b = 0; b < before; b++)
+        for (pia_index i = 0; i < c->full; i++) {
+            double *to = unknowns + (b * c->unknowns + pia_collocation_unknown(c, i)) * after;
+            const double *from = full + (b * c->full + i) * after;
+            for (pia_index k = 0; k < after; k++) to[k] += from[k];
+        }
+}
+
+void pia_collocation_column_sums(const pia_collocation *c, const double *weights, double *sums)
+{
+    double scratch[PIA_MAX_DEGREE + 1];
+    memset(sums, 0, (size_t)c->unknowns * sizeof *sums);
+    for (pia_index s = 0; s < spans(c); s++)
+        for (pia_index row = c->begin[s]; row < c->begin[s + 1]; row++) {
+            const double *value = pia_collocation_row(c, row, c->degree + s, scratch);
+            double w = weights != NULL ? weights[row] : 1;
+            for (int k = 0; k <= c->degree; k++) sums[pia_collocation_unknown(c, s + k)] += w * value[k];
+        }
+}
+
+int pia_collocation_entries(const pia_collocation *c, pia_index row, pia_index span, pia_index *first, double *entries)
+{
+    double scratch[PIA_MAX_DEGREE + 1];
+    const double *value = pia_collocation_row(c, row, span, scratch);
+    pia_index column = span - c->degree;
+    int width = c->degree + 1;
+    for (int k = 0; k < width; k++) entries[k] = 0;
+    if (c->map != PIA_MAP_DOUBLED) {
+        *first = column % c->unknowns;
+        for (int k = 0; k < width; k++) entries[k] = value[k];
+        return *first + width <= c->unknowns;
+    }
+    pia_index start = pia_collocation_unknown(c, column);
+    if (start + width > c->unknowns) start = c->unknowns > width ? c->unknowns - width : 0;
+    *first = start;
+    for (int k = 0; k < width; k++) entries[pia_collocation_unknown(c, column + k) - start] += value[k];
+    return 1;
+}

@@ -1,0 +1,85 @@
+#include "iterate.h"
+
+#include "kernel.h"
+
+#include <math.h>
+
+enum { GRAIN = 32768, MAX_CHUNKS = 256 };
+
+typedef struct scan {
+    const double *x, *y;
+    pia_index count, chunks;
+    int dim;
+    double *part;
+} scan;
+
+static pia_index chunk_count(pia_index count)
+{
+    pia_index chunks = pia_chunk_count(count, GRAIN);
+    return chunks < MAX_CHUNKS ? chunks : MAX_CHUNKS;
+}
+
+static void dot_chunk(void *work, pia_index chunk)
+{
+    const scan *s = work;
+    double sum = 0;
+    for (pia_index i = pia_chunk_begin(s->count, s->chunks, chunk); i < pia_chunk_begin(s->count, s->chunks, chunk + 1); i++)
+        sum += s->x[i] * s->y[i];
+    s->part[chunk] = sum;
+}
+
+static void longest_chunk(void *work, pia_index chunk)
+{
+    const scan *s = work;
+    double worst = 0;
+    for (pia_index i = pia_chunk_begin(s->count, s->chunks, chunk); i < pia_chunk_begin(s->count, s->chunks, chunk + 1); i++) {
+        double square = 0;
+        for (int d = 0; d < s->dim; d++) square += s->x[i * s->dim + d] * s->x[i * s->dim + d];
+        if (!(square <= worst)) worst = square;
+    }
+    s->part[chunk] = worst;
+}
+
+double pia_iterate_dot(const pia_iterate *iterate, const double *x, const double *y)
+{
+    double part[MAX_CHUNKS], sum = 0;
+    pia_index count = iterate->op->cols * iterate->dim;
+    scan s = {x, y, count, chunk_count(count), iterate->dim, part};
+    pia_for_each(iterate->context, s.chunks, dot_chunk, &s);
+    for (pia_index c = 0; c < s.chunks; c++) sum += part[c];
+    return sum;
+}
+
+double pia_iterate_longest(const pia_iterate *iterate, const double *x)
+{
+    double part[MAX_CHUNKS], worst = 0;
+    scan s = {x, x, iterate->op->cols, chunk_count(iterate->op->cols), iterate->dim, part};
+    pia_for_each(iterate->context, s.chunks, longest_chunk, &s);
+    for (pia_index c = 0; c < s.chunks; c++)
+        if (!(part[c] <= worst)) worst = part[c];
+    return sqrt(worst);
+}
+
+void pia_iterate_measure(pia_iterate *iterate)
+{
+    if (iterate->errors_known) return;
+    iterate->errors = pia_op_residual(iterate->op, iterate->points, &iterate->targets, iterate->residual);
+    iterate->errors_known = 1;
+}
+
+void pia_iterate_gradient(pia_iterate *iterate, double *gradient)
+{
+    const pia_normal *normal = iterate->normal;
+    pia_index size = iterate->op->cols * iterate->dim;
+    if (normal != NULL) {
+        normal->class->multiply(normal, iterate->points, iterate->dim, gradient);
+        for (pia_index i = 0; i < size; i++) gradient[i] = normal->right[i] - gradient[i];
+        pia_op_mask(iterate->op, gradient, iterate->dim);
+    } else {
+        pia_iterate_measure(iterate);
+        pia_op_gather(iterate->op, iterate->residual, iterate->op->weights, iterate->dim, gradient);
+    }
+    double norm = sqrt(pia_iterate_dot(iterate, gradient, gradient));
+    if (iterate->right_norm > 0) norm /= iterate->right_norm;
+    iterate->relative_gradient = norm;
+}
