@@ -64,8 +64,8 @@ static void list_names(const pia_parameter *parameters, char *text, size_t size)
     }
 }
 
-pia_status pia_values_set(pia_context *context, const char *record, const pia_parameter *parameters, const char *name, const char *value,
-                          pia_values *values)
+pia_status pia_values_set(pia_context *context, const char *record, const pia_parameter *parameters, const char *name,
+                          const char *value, pia_values *values)
 {
     for (int i = 0; parameters != NULL && parameters[i].name != NULL; i++) {
         const pia_parameter *p = &parameters[i];

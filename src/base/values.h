@@ -16,8 +16,8 @@ typedef struct pia_values {
 /* The record's defaults. parameters ends with name NULL; NULL: none. */
 void pia_values_default(const pia_parameter *parameters, pia_values *out);
 /* Sets one parameter; PIA_E_ARGUMENT names the record, the parameter, what it takes and what the record knows. */
-pia_status pia_values_set(pia_context *context, const char *record, const pia_parameter *parameters, const char *name, const char *value,
-                          pia_values *values);
+pia_status pia_values_set(pia_context *context, const char *record, const pia_parameter *parameters, const char *name,
+                          const char *value, pia_values *values);
 /* `count` texts "name=value" one after the other. */
 pia_status pia_values_read(pia_context *context, const char *record, const pia_parameter *parameters, const char *const *texts,
                            pia_index count, pia_values *values);

@@ -49,10 +49,11 @@ void pia_collocation_rebucket(pia_collocation *c)
     }
 }
 
-pia_status pia_collocation_open(pia_context *context, int degree, pia_map map, const double *knots, pia_index full,
+pia_status pia_collocation_open(pia_context *context, int degree, pia_map map, pia_index offset, const double *knots, pia_index full,
                                 const double *parameters, pia_index rows, int keep_values, pia_collocation *out)
 {
-    pia_collocation c = {.degree = degree, .map = map, .full = full, .rows = rows, .knots = knots, .parameters = parameters};
+    pia_collocation c = {
+        .degree = degree, .map = map, .full = full, .rows = rows, .knots = knots, .parameters = parameters, .offset = offset};
     c.unknowns = map == PIA_MAP_IDENTITY ? full : map == PIA_MAP_CYCLIC ? full - degree : full - 2;
     if (c.unknowns < 1 || full <= degree)
         return pia_fail(context, PIA_E_SHAPE, "%lld control points are too few for degree %d", (long long)full, degree);
@@ -102,7 +103,7 @@ const double *pia_collocation_row(const pia_collocation *c, pia_index row, pia_i
 pia_index pia_collocation_unknown(const pia_collocation *c, pia_index column)
 {
     if (c->map == PIA_MAP_IDENTITY) return column;
-    if (c->map == PIA_MAP_CYCLIC) return column % c->unknowns;
+    if (c->map == PIA_MAP_CYCLIC) return (column + c->offset) % c->unknowns;
     return column == 0 ? 0 : column > c->unknowns ? c->unknowns - 1 : column - 1;
 }
 
@@ -145,7 +146,7 @@ int pia_collocation_entries(const pia_collocation *c, pia_index row, pia_index s
     int width = c->degree + 1;
     for (int k = 0; k < width; k++) entries[k] = 0;
     if (c->map != PIA_MAP_DOUBLED) {
-        *first = column % c->unknowns;
+        *first = pia_collocation_unknown(c, column);
         for (int k = 0; k < width; k++) entries[k] = value[k];
         return *first + width <= c->unknowns;
     }

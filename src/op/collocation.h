@@ -7,7 +7,7 @@
 
 typedef enum pia_map {
     PIA_MAP_IDENTITY, /* full = unknowns */
-    PIA_MAP_CYCLIC,   /* full = unknowns + degree, full column i is unknown i mod unknowns */
+    PIA_MAP_CYCLIC,   /* full = unknowns + degree, the last degree columns repeat the first */
     PIA_MAP_DOUBLED   /* full = unknowns + 2, the first and the last column repeat their neighbour ([2004] Eq. 2) */
 } pia_map;
 
@@ -19,11 +19,12 @@ typedef struct pia_collocation {
     const double *parameters; /* [rows], non-decreasing, inside the domain, borrowed */
     pia_index *begin;         /* [full - degree + 1]: rows of span degree + s are begin[s] .. begin[s + 1] - 1 */
     double *values;           /* [rows x (degree + 1)] basis values, or NULL: evaluated where needed */
-    pia_index shift;          /* square problems: unknown c is moved by row (c + shift) mod rows */
+    pia_index offset;         /* cyclic: full column i is unknown (i + offset) mod unknowns; interpolation chooses it so that unknown c
+                                 is centred on row c */
 } pia_collocation;
 
 /* keep_values: store the basis values (8 (degree + 1) bytes a row), for methods that pass over the rows often. */
-pia_status pia_collocation_open(pia_context *context, int degree, pia_map map, const double *knots, pia_index full,
+pia_status pia_collocation_open(pia_context *context, int degree, pia_map map, pia_index offset, const double *knots, pia_index full,
                                 const double *parameters, pia_index rows, int keep_values, pia_collocation *out);
 void pia_collocation_close(pia_context *context, pia_collocation *c);
 /* The parameters behind the pointer have changed (still sorted): spans and values anew. */

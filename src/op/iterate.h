@@ -9,24 +9,27 @@ struct pia_constraints;
 typedef struct pia_iterate {
     pia_context *context;
     pia_op *op;
-    pia_normal *normal;  /* least squares: the normal form; NULL: gradients pass over the data */
+    pia_normal *normal; /* least squares: the normal form; NULL: gradients pass over the data */
     pia_targets targets;
     int dim;
-    double extent;       /* diagonal of the data's bounding box, > 0 */
-    double *points;      /* P [cols x dim], centred on the targets' origin */
-    double *adjust;      /* D [cols x dim]; a fused step writes the next P here instead */
-    double *residual;    /* R [rows x dim]; NULL unless the method needs rows or there is no normal form */
-    double right_norm;   /* |A'W(Q - origin)|, the scale of relative gradients; 0: unknown, gradients are absolute */
+    double extent;                       /* diagonal of the data's bounding box, > 0 */
+    double *points;                      /* P [cols x dim], centred on the targets' origin */
+    double *adjust;                      /* D [cols x dim]; a fused step writes the next P here instead */
+    double *residual;                    /* R [rows x dim]; NULL unless the method needs rows or there is no normal form */
+    double right_norm;                   /* |A'W(Q - origin)|, the scale of relative gradients; 0: unknown, gradients are absolute */
     struct pia_constraints *constraints; /* NULL: none */
-    pia_index iteration; /* updates done */
-    pia_errors errors;   /* of P, when errors_known */
+    pia_index iteration;                 /* updates done */
+    pia_errors errors;                   /* of P, when errors_known */
     int errors_known;
     double adjust_max;        /* largest |D_i| of the step just computed */
     double relative_gradient; /* of P; NAN when the method has none */
+    double damping;           /* the loop's factor on the steps of interpolating methods: 1, halved where steps grow */
     int stalled;              /* set by a method or limiter: no step helps any more */
+    int finished;             /* set by a finite method: P is the limit, this step is none */
+    int square;               /* 1: interpolation, each unknown owns a row; 0: least squares */
     pia_status (*project)(struct pia_iterate *iterate); /* moves the parameters to the closest points of the current iterate; NULL where
                                                            not offered */
-    void *owner;              /* of project */
+    void *owner;                                        /* of project */
 } pia_iterate;
 
 /* R and errors of the current P (one pass over the data); nothing when they are known. */

@@ -11,8 +11,8 @@ typedef struct pia_normal pia_normal;
 typedef struct pia_normal_class {
     const char *name;
     void (*multiply)(const pia_normal *normal, const double *x, int dim, double *y); /* y = H x */
-    pia_status (*factor)(pia_normal *normal);                                       /* once before solve */
-    void (*solve)(const pia_normal *normal, double *b, int dim);                    /* b := H^-1 b */
+    pia_status (*factor)(pia_normal *normal);                                        /* once before solve */
+    void (*solve)(const pia_normal *normal, double *b, int dim);                     /* b := H^-1 b */
     void (*close)(pia_normal *normal);
 } pia_normal_class;
 

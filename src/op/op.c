@@ -13,8 +13,8 @@ static pia_status take_work(pia_op *op)
     return PIA_OK;
 }
 
-pia_status pia_op_new(pia_context *context, const pia_op_class *class, int directions, const pia_index *unknowns, const pia_index *fulls,
-                      pia_index rows, const double *weights, int dim, pia_op **out)
+pia_status pia_op_new(pia_context *context, const pia_op_class *class, int directions, const pia_index *unknowns,
+                      const pia_index *fulls, pia_index rows, const double *weights, int dim, pia_op **out)
 {
     pia_op *op = pia_take_zero(context, 1, sizeof *op);
     if (op == NULL) return pia_take_status(context, 1, sizeof *op);
@@ -63,8 +63,7 @@ pia_index pia_op_unknown(const pia_op *op, pia_index control)
 
 void pia_op_expand(const pia_op *op, const double *x, int dim, double *full)
 {
-    for (pia_index i = 0; i < op->fulls; i++)
-        memcpy(full + i * dim, x + pia_op_unknown(op, i) * dim, (size_t)dim * sizeof *full);
+    for (pia_index i = 0; i < op->fulls; i++) memcpy(full + i * dim, x + pia_op_unknown(op, i) * dim, (size_t)dim * sizeof *full);
 }
 
 void pia_op_reduce(const pia_op *op, const double *full, int dim, double *x)
@@ -124,14 +123,6 @@ pia_status pia_op_freeze(pia_op *op, pia_index unknown, int frozen)
     }
     op->frozen[unknown] = frozen != 0;
     return PIA_OK;
-}
-
-pia_index pia_op_owner(const pia_op *op, pia_index c)
-{
-    if (op->directions == 1) return (c + op->line[0]->shift) % op->rows;
-    pia_index rows_v = op->line[1]->rows;
-    pia_index i = (c / op->count[1] + op->line[0]->shift) % op->line[0]->rows, j = (c % op->count[1] + op->line[1]->shift) % rows_v;
-    return i * rows_v + j;
 }
 
 pia_errors pia_errors_join(pia_errors earlier, pia_errors later)

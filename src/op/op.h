@@ -46,15 +46,15 @@ struct pia_op {
     int directions;           /* 1 or 2 */
     pia_collocation *line[2]; /* of a curve or grid, borrowed; NULL for scattered points */
     pia_index rows, cols, fulls;
-    pia_index count[2];       /* unknowns a direction, cols = count[0] * count[1] */
+    pia_index count[2]; /* unknowns a direction, cols = count[0] * count[1] */
     pia_index full_count[2];
-    int identity;             /* unknowns are the full control points: no copy is needed */
-    const double *weights;    /* [rows], borrowed; NULL: 1 */
-    unsigned char *frozen;    /* [cols] 1: stays; NULL: all free */
-    double *full;             /* work: [fulls x dim] unless identity */
-    double *along;            /* work: [rows of u x full_count[1] x dim] of a grid */
-    int dim;                  /* the dimension the work arrays have room for */
-    void *state;              /* of the class */
+    int identity;          /* unknowns are the full control points: no copy is needed */
+    const double *weights; /* [rows], borrowed; NULL: 1 */
+    unsigned char *frozen; /* [cols] 1: stays; NULL: all free */
+    double *full;          /* work: [fulls x dim] unless identity */
+    double *along;         /* work: [rows of u x full_count[1] x dim] of a grid */
+    int dim;               /* the dimension the work arrays have room for */
+    void *state;           /* of the class */
 };
 
 /* The collocations and weights (NULL: 1) are borrowed and outlive the operator. dim is the most components any call will bring. */
@@ -63,8 +63,8 @@ pia_status pia_op_grid_open(pia_context *context, pia_collocation *u, pia_colloc
 void pia_op_close(pia_op *op);
 
 /* For the open functions of the classes: allocates the operator and its work arrays from the collocations (NULL for scattered). */
-pia_status pia_op_new(pia_context *context, const pia_op_class *class, int directions, const pia_index *unknowns, const pia_index *fulls,
-                      pia_index rows, const double *weights, int dim, pia_op **out);
+pia_status pia_op_new(pia_context *context, const pia_op_class *class, int directions, const pia_index *unknowns,
+                      const pia_index *fulls, pia_index rows, const double *weights, int dim, pia_op **out);
 
 /* Full control points of unknowns x: x itself when the map is the identity, else the operator's work array (valid until the next
  * call that uses it). */
@@ -78,7 +78,7 @@ void pia_op_apply(const pia_op *op, const double *x, int dim, double *values);
 void pia_op_gather(const pia_op *op, const double *values, const double *weights, int dim, double *x);
 /* residual [rows x dim] = targets - A x, or NULL when only the errors are wanted. */
 pia_errors pia_op_residual(const pia_op *op, const double *x, const pia_targets *targets, double *residual);
-/* One pass of a square operator whose unknown c is moved by row c: next [cols x dim] = x + factor * (targets - A x), frozen unknowns
+/* One pass of a square operator, whose unknown c is moved by row c: next [cols x dim] = x + factor * (targets - A x), frozen unknowns
  * unchanged. The errors are those of x. */
 pia_errors pia_op_move(const pia_op *op, const double *x, const pia_targets *targets, double factor, double *next);
 
@@ -87,9 +87,6 @@ void pia_op_mask(const pia_op *op, double *x, int dim);
 /* The unknown behind a full control point (row-major index). */
 pia_index pia_op_unknown(const pia_op *op, pia_index control);
 pia_status pia_op_freeze(pia_op *op, pia_index unknown, int frozen);
-
-/* Square problems: the row that moves unknown c. */
-pia_index pia_op_owner(const pia_op *op, pia_index c);
 
 /* Joins the errors of two sets of rows, `later` having the larger row numbers. */
 pia_errors pia_errors_join(pia_errors earlier, pia_errors later);

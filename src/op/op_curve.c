@@ -73,7 +73,8 @@ static inline __attribute__((always_inline)) void residual_spans(const pass *p, 
             for (int d = 0; d < dim; d++) {
                 double difference = target[d] - p->targets->origin[d] - sum[d];
                 square += difference * difference;
-                if (p->out != NULL) p->out[row * dim + d] = p->base != NULL ? p->base[row * dim + d] + p->factor * difference : difference;
+                if (p->out != NULL)
+                    p->out[row * dim + d] = p->base != NULL ? p->base[row * dim + d] + p->factor * difference : difference;
             }
             e.sum_squares += square;
             e.weighted += p->weights != NULL ? p->weights[row] * square : square;
@@ -106,17 +107,17 @@ static inline __attribute__((always_inline)) void gather_spans(const pass *p, pi
 }
 
 /* The cubic in up to three dimensions is what nearly everybody fits: those loops are unrolled by giving the compiler the counts. */
-#define PIA_UNROLL(body, p, chunk)                                                        \
-    do {                                                                                  \
-        int degree_ = (p)->line->degree, dim_ = (p)->dim;                                 \
-        if (degree_ == 3 && dim_ == 3)                                                    \
-            body(p, chunk, 3, 3);                                                         \
-        else if (degree_ == 3 && dim_ == 2)                                               \
-            body(p, chunk, 3, 2);                                                         \
-        else if (degree_ == 3 && dim_ == 1)                                               \
-            body(p, chunk, 3, 1);                                                         \
-        else                                                                              \
-            body(p, chunk, degree_, dim_);                                                \
+#define PIA_UNROLL(body, p, chunk)                                                                                                     \
+    do {                                                                                                                               \
+        int degree_ = (p)->line->degree, dim_ = (p)->dim;                                                                              \
+        if (degree_ == 3 && dim_ == 3)                                                                                                 \
+            body(p, chunk, 3, 3);                                                                                                      \
+        else if (degree_ == 3 && dim_ == 2)                                                                                            \
+            body(p, chunk, 3, 2);                                                                                                      \
+        else if (degree_ == 3 && dim_ == 1)                                                                                            \
+            body(p, chunk, 3, 1);                                                                                                      \
+        else                                                                                                                           \
+            body(p, chunk, degree_, dim_);                                                                                             \
     } while (0)
 
 static void apply_chunk(void *work, pia_index chunk)
@@ -150,7 +151,8 @@ static void apply(const pia_op *op, const double *full, int dim, double *values)
     pia_for_each(op->context, p.chunks, apply_chunk, &p);
 }
 
-static pia_errors residual(const pia_op *op, const double *full, const pia_targets *targets, const double *base, double factor, double *out)
+static pia_errors residual(const pia_op *op, const double *full, const pia_targets *targets, const double *base, double factor,
+                           double *out)
 {
     pia_errors errors[MAX_CHUNKS];
     pass p = pass_over(op, targets->dim);

@@ -127,7 +127,8 @@ static void apply(const pia_op *op, const double *full, int dim, double *values)
     pia_for_each(op->context, p.chunks, apply_chunk, &p);
 }
 
-static pia_errors residual(const pia_op *op, const double *full, const pia_targets *targets, const double *base, double factor, double *out)
+static pia_errors residual(const pia_op *op, const double *full, const pia_targets *targets, const double *base, double factor,
+                           double *out)
 {
     pia_errors errors[MAX_CHUNKS];
     contract_v(op, full, targets->dim);
@@ -184,8 +185,10 @@ pia_status pia_op_grid_open(pia_context *context, pia_collocation *u, pia_colloc
 {
     pia_index unknowns[2] = {u->unknowns, v->unknowns}, fulls[2] = {u->full, v->full}, rows, size;
     pia_op *op;
-    if (!pia_multiply(u->rows, v->rows, &rows) || !pia_multiply(u->full + MAX_CHUNKS, v->rows, &size) || !pia_multiply(size, dim, &size))
-        return pia_fail(context, PIA_E_SIZE, "a grid of %lld x %lld points does not fit in 64 bits", (long long)u->rows, (long long)v->rows);
+    if (!pia_multiply(u->rows, v->rows, &rows) || !pia_multiply(u->full + MAX_CHUNKS, v->rows, &size) ||
+        !pia_multiply(size, dim, &size))
+        return pia_fail(context, PIA_E_SIZE, "a grid of %lld x %lld points does not fit in 64 bits", (long long)u->rows,
+                        (long long)v->rows);
     pia_status status = pia_op_new(context, &grid, 2, unknowns, fulls, rows, weights, dim, &op);
     if (status != PIA_OK) return status;
     op->line[0] = u;

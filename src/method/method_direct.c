@@ -1,0 +1,61 @@
+/* The limit in one step: the banded (curve) or Kronecker (grid) interpolation equations, or the normal equations of least squares,
+ * solved for the correction of the current P. A second step is taken where the first one left more than rounding. */
+#include "method.h"
+#include "square.h"
+
+enum { ENOUGH_STEPS = 4 };
+
+typedef struct direct {
+    double steps, left; /* what the step before left: the largest error, or the relative gradient */
+} direct;
+
+/* Residuals go straight into D, so that no second array of them is needed. */
+static double remaining_error(pia_iterate *iterate)
+{
+    iterate->errors = pia_op_residual(iterate->op, iterate->points, &iterate->targets, iterate->adjust);
+    iterate->errors_known = iterate->residual == NULL;
+    return iterate->errors.max / iterate->extent;
+}
+
+static double remaining_gradient(pia_iterate *iterate)
+{
+    pia_iterate_gradient(iterate, iterate->adjust);
+    return iterate->relative_gradient;
+}
+
+static pia_status solve(pia_iterate *iterate, double steps)
+{
+    if (iterate->square) {
+        pia_op_mask(iterate->op, iterate->adjust, iterate->dim);
+        return pia_square_solve(iterate->op, iterate->adjust, iterate->dim);
+    }
+    pia_status status = steps == 0 ? iterate->normal->class->factor(iterate->normal) : PIA_OK;
+    if (status == PIA_OK) iterate->normal->class->solve(iterate->normal, iterate->adjust, iterate->dim);
+    pia_op_mask(iterate->op, iterate->adjust, iterate->dim);
+    return status;
+}
+
+static pia_status adjust(pia_iterate *iterate, void *state)
+{
+    direct *d = state;
+    if (!iterate->square && iterate->normal == NULL)
+        return pia_fail(iterate->context, PIA_E_ARGUMENT, "direct has no normal equations here; use cg");
+    double left = iterate->square ? remaining_error(iterate) : remaining_gradient(iterate);
+    iterate->finished = d->steps > 0 && (left < 1e-14 || left > d->left / 4 || d->steps >= ENOUGH_STEPS);
+    if (iterate->finished) return PIA_OK;
+    pia_status status = solve(iterate, d->steps);
+    d->left = left;
+    d->steps++;
+    return status;
+}
+
+const pia_method pia_method_direct = {
+    .name = "direct",
+    .title = "the limit itself: interpolation or least squares by a direct solve",
+    .reference = "piegl1997",
+    .detail = "interpolates, or least squares when fewer control points are asked; constraints; finite",
+    .needs = PIA_IS_FINITE | PIA_LEAST_SQUARES | PIA_KNOWS_CONSTRAINTS | PIA_NEEDS_NORMAL,
+    .iterations = ENOUGH_STEPS,
+    .state_size = sizeof(direct),
+    .adjust = adjust,
+};

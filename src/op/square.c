@@ -1,0 +1,159 @@
+#include "square.h"
+
+#include "band.h"
+#include "dense.h"
+#include "kernel.h"
+
+#include <string.h>
+
+/* The equations of one direction: row c belongs to unknown c. */
+typedef struct equations {
+    pia_index n;
+    int width;
+    pia_index *first; /* [n] first column, modulo n when it wraps */
+    double *entry;    /* [n x width] */
+    int wraps;
+} equations;
+
+static void equations_clear(pia_context *context, equations *e)
+{
+    pia_give(context, e->first);
+    pia_give(context, e->entry);
+}
+
+/* The equation of a frozen unknown becomes d = 0. */
+static void freeze_equation(equations *e, pia_index c)
+{
+    for (int k = 0; k < e->width; k++) e->entry[c * e->width + k] = (e->first[c] + k) % e->n == c;
+}
+
+static pia_status equations_open(pia_context *context, const pia_collocation *c, const unsigned char *frozen, equations *out)
+{
+    equations e = {.n = c->unknowns, .width = c->degree + 1};
+    e.first = pia_take(context, e.n, sizeof *e.first);
+    e.entry = pia_take(context, e.n, (size_t)e.width * sizeof *e.entry);
+    if (e.first == NULL || e.entry == NULL) {
+        equations_clear(context, &e);
+        return PIA_E_MEMORY;
+    }
+    for (pia_index s = 0; s < c->full - c->degree; s++)
+        for (pia_index row = c->begin[s]; row < c->begin[s + 1]; row++) {
+            if (!pia_collocation_entries(c, row, c->degree + s, &e.first[row], e.entry + row * e.width)) e.wraps = 1;
+            if (frozen != NULL && frozen[row]) freeze_equation(&e, row);
+        }
+    *out = e;
+    return PIA_OK;
+}
+
+/* Where few unknowns wrap around, the matrix is dense anyway. */
+static pia_status solve_dense(pia_context *context, const equations *e, double *r, int width)
+{
+    double *a = pia_take_zero(context, e->n * e->n, sizeof *a);
+    pia_index *pivot = pia_take(context, e->n, sizeof *pivot);
+    pia_status status = a != NULL && pivot != NULL ? PIA_OK : PIA_E_MEMORY;
+    if (status == PIA_OK) {
+        for (pia_index i = 0; i < e->n; i++)
+            for (int k = 0; k < e->width; k++) a[i * e->n + (e->first[i] + k) % e->n] += e->entry[i * e->width + k];
+        if (pia_dense_lu(a, e->n, pivot))
+            pia_dense_lu_solve(a, e->n, pivot, r, width);
+        else
+            status = pia_fail(context, PIA_E_DATA, "the closed interpolation problem is singular; use other knots or an odd degree");
+    }
+    pia_give(context, a);
+    pia_give(context, pivot);
+    return status;
+}
+
+/* A cyclic band as a band with a border: the last `degree` unknowns are kept apart, the rest no longer wraps.
+ *   [A11 A12] [x1]   [r1]        S = A22 - A21 A11^-1 A12
+ *   [A21 A22] [x2] = [r2]        x2 = S^-1 (r2 - A21 A11^-1 r1),  x1 = A11^-1 r1 - (A11^-1 A12) x2 */
+static pia_status solve_bordered(pia_context *context, const equations *e, double *r, int width)
+{
+    int q = e->width - 1, band = 2 * q + 1;
+    pia_index n = e->n, m = n - q;
+    double *a11 = pia_take_zero(context, m, (size_t)band * sizeof *a11), *a12 = pia_take_zero(context, m, (size_t)q * sizeof *a12);
+    double *a21 = pia_take_zero(context, m, (size_t)q * sizeof *a21), *s = pia_take_zero(context, q, (size_t)q * sizeof *s);
+    pia_index *pivot = pia_take(context, q, sizeof *pivot);
+    pia_band_plu plu = {0};
+    pia_status status = a11 && a12 && a21 && s && pivot ? PIA_OK : PIA_E_MEMORY;
+    for (pia_index i = 0; status == PIA_OK && i < n; i++)
+        for (int k = 0; k < e->width; k++) {
+            pia_index j = (e->first[i] + k) % n;
+            double entry = e->entry[i * e->width + k];
+            if (i < m && j < m && j - i >= -q && j - i <= q)
+                a11[i * band + (j - i + q)] += entry;
+            else if (i < m && j >= m)
+                a12[i * q + (j - m)] += entry;
+            else if (i >= m && j < m)
+                a21[j * q + (i - m)] += entry;
+            else if (i >= m)
+                s[(i - m) * q + (j - m)] += entry;
+            else
+                status = PIA_E_INTERNAL;
+        }
+    if (status == PIA_OK) status = pia_band_plu_factor(context, a11, m, q, q, &plu);
+    if (status == PIA_OK) {
+        pia_band_plu_solve(&plu, a12, q);
+        pia_band_plu_solve(&plu, r, width);
+        double *r2 = r + m * width;
+        for (pia_index j = 0; j < m; j++)
+            for (int i = 0; i < q; i++) {
+                double factor = a21[j * q + i];
+                if (factor == 0) continue;
+                for (int k = 0; k < q; k++) s[i * q + k] -= factor * a12[j * q + k];
+                for (int k = 0; k < width; k++) r2[i * width + k] -= factor * r[j * width + k];
+            }
+        if (pia_dense_lu(s, q, pivot))
+            pia_dense_lu_solve(s, q, pivot, r2, width);
+        else
+            status = pia_fail(context, PIA_E_DATA, "the closed interpolation problem is singular; use other knots or an odd degree");
+        for (pia_index j = 0; status == PIA_OK && j < m; j++)
+            for (int i = 0; i < q; i++)
+                for (int k = 0; k < width; k++) r[j * width + k] -= a12[j * q + i] * r2[i * width + k];
+    }
+    pia_band_plu_clear(context, &plu);
+    pia_give(context, a11);
+    pia_give(context, a12);
+    pia_give(context, a21);
+    pia_give(context, s);
+    pia_give(context, pivot);
+    return status;
+}
+
+/* A factored direction, solved for many right-hand sides: whole rows of a grid at once. */
+static pia_status solve_equations(pia_context *context, const equations *e, double *r, pia_index lines, int width)
+{
+    pia_status status = PIA_OK;
+    if (e->wraps) {
+        int dense = e->n <= 2 * (pia_index)e->width;
+        for (pia_index i = 0; status == PIA_OK && i < lines; i++)
+            status =
+                dense ? solve_dense(context, e, r + i * e->n * width, width) : solve_bordered(context, e, r + i * e->n * width, width);
+        return status;
+    }
+    pia_band_lu lu;
+    status = pia_band_lu_factor(context, e->entry, e->first, e->n, e->width, &lu);
+    if (status != PIA_OK) return status;
+    for (pia_index i = 0; i < lines; i++) pia_band_lu_solve(&lu, r + i * e->n * width, width);
+    pia_band_lu_clear(context, &lu);
+    return PIA_OK;
+}
+
+static pia_status solve_line(pia_context *context, const pia_collocation *c, const unsigned char *frozen, double *r, pia_index lines,
+                             int width)
+{
+    equations e;
+    pia_status status = equations_open(context, c, frozen, &e);
+    if (status != PIA_OK) return status;
+    status = solve_equations(context, &e, r, lines, width);
+    equations_clear(context, &e);
+    return status;
+}
+
+pia_status pia_square_solve(const pia_op *op, double *r, int dim)
+{
+    if (op->directions == 1) return solve_line(op->context, op->line[0], op->frozen, r, 1, dim);
+    pia_status status = solve_line(op->context, op->line[0], NULL, r, 1, (int)(op->count[1] * dim));
+    if (status == PIA_OK) status = solve_line(op->context, op->line[1], NULL, r, op->count[0], dim);
+    return status;
+}
