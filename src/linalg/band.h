@@ -11,8 +11,8 @@
 pia_index pia_band_ldl_factor(double *h, pia_index n, int width, double threshold, pia_index *weak, pia_index weak_room);
 void pia_band_ldl_solve(const double *ldl, pia_index n, int width, double *b, int dim);
 
-/* The same for a cyclic band: H(i, (i + k) mod n), n > 2 width. The last `width` unknowns are bordered; work is [n x width] plus
- * [width x width], supplied by the caller as border[(n + width) * width]. */
+/* The same for a cyclic band: H(i, (i + k) mod n), n > 2 width. The last `width` unknowns are bordered; border has room for
+ * (n + width) * width values. Solving costs 2 n width dim more than without the border. */
 pia_index pia_band_cyclic_factor(double *h, pia_index n, int width, double threshold, double *border);
 void pia_band_cyclic_solve(const double *ldl, const double *border, pia_index n, int width, double *b, int dim);
 
