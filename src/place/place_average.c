@@ -14,7 +14,8 @@ static double cyclic_mean(const pia_place_problem *p, pia_index first)
 {
     double t[PIA_MAX_DEGREE];
     if (first >= 0 && first + p->degree <= p->count) return mean(p->parameters + first, p->degree);
-    for (int k = 0; k < p->degree; k++) t[k] = pia_spacing_cyclic(p, first + k);
+    t[0] = pia_spacing_cyclic(p, first);
+    for (int k = 1; k < p->degree; k++) t[k] = pia_spacing_cyclic(p, first + k);
     return mean(t, p->degree);
 }
 
