@@ -16,9 +16,8 @@ pia_summary *pia_summary_copy(const pia_memory *memory, const pia_summary *summa
 {
     pia_summary *copy = pia_memory_take(memory, 1, sizeof *copy);
     if (copy == NULL) return NULL;
-    *copy = (pia_summary){.report = summary->report,
-                          .parameter_count = summary->parameter_count,
-                          .dropped_count = summary->dropped_count};
+    *copy =
+        (pia_summary){.report = summary->report, .parameter_count = summary->parameter_count, .dropped_count = summary->dropped_count};
     if (copy_array(memory, &copy->parameters, summary->parameters, summary->parameter_count, sizeof *summary->parameters) &&
         copy_array(memory, &copy->dropped, summary->dropped, summary->dropped_count, sizeof *summary->dropped) &&
         pia_notes_copy(memory, &copy->notes, &summary->notes))
