@@ -6,15 +6,26 @@
 #include "model.h"
 #include "output.h"
 
-/* A file in memory (read whole or mapped), standard input for "-". */
+/* A file in memory: mapped when it is a regular file, else read whole. Readers never look outside [begin, end); no NUL follows.
+ * A mapped file that another program shortens meanwhile ends the process (SIGBUS), as with any mapping. */
 typedef struct pia_input {
-    const char *path; /* as the messages name it */
+    const char *path; /* as the messages name it; "standard input" for "-" */
     const char *begin, *end;
+    void *block; /* what to unmap or give back */
     int mapped;
 } pia_input;
 
+/* path is borrowed until the input is closed. PIA_E_FILE: missing, a directory, unreadable; PIA_E_MEMORY. */
 pia_status pia_input_open(pia_context *context, const char *path, pia_input *out);
 void pia_input_close(pia_context *context, pia_input *input);
+
+/* Number of the line that holds `at`, from 1. LF, CRLF and CR end a line. */
+pia_index pia_input_line(const pia_input *input, const char *at);
+/* PIA_E_FORMAT with "PATH:LINE: ...", or "PATH: ..." when at is NULL. */
+pia_status pia_input_fail(pia_context *context, const pia_input *input, const char *at, const char *format, ...)
+    __attribute__((format(printf, 4, 5)));
+/* Copies at most 24 characters for a message, "..." for what is left out and '?' for what cannot be printed. */
+void pia_input_quote(const char *begin, const char *end, char quote[32]);
 
 /* What a reader of points fills in; arrays taken with pia_take. The public pia_points wraps it. */
 struct pia_points {
@@ -23,11 +34,25 @@ struct pia_points {
     double *points;
     pia_index count[2];
     int dim;
-    pia_index part_count, *part;
+    pia_index part_count, *part; /* part NULL: the rows are one part */
+    pia_index whole[2];          /* {0, rows}: the one part of files that know no parts */
     pia_index skipped, *row;
-    char **names;
+    char **names; /* [dim], or NULL */
     const char *format;
 };
+
+/* Gives back the arrays and leaves the struct empty; its memory stays. */
+void pia_points_clear(pia_points *points);
+
+/* A regular grid of heights turned into points (x, y, z): x = first[0] + column * step[0], y = first[1] + row * step[1].
+ * values [rows x columns]. Sets kind, count, dim, points of `out`. PIA_E_MEMORY, PIA_E_SIZE. */
+pia_status pia_points_from_heights(pia_context *context, const double *values, pia_index rows, pia_index columns, const double first[2],
+                                   const double step[2], pia_points *out);
+
+/* Points of model `model` at `samples` uniform parameters a direction (PIA_AUTO: enough for a picture); parameters
+ * [count x directions] and points [count x dim] are the caller's to give back; count[1] is 1 for a curve. */
+pia_status pia_model_sample(pia_context *context, const pia_model *model, pia_index samples, double **parameters, double **points,
+                            pia_index count[2]);
 
 typedef struct pia_format {
     const char *name, *title, *reference, *detail;
@@ -38,11 +63,12 @@ typedef struct pia_format {
                                pia_index samples);
     pia_status (*write_table)(pia_context *context, pia_output *output, const char *header, const double *values, pia_index rows,
                               int columns);
-} pia_format; /* a NULL entry: the format cannot do that */
+} pia_format; /* a NULL entry: the format cannot do that. Readers leave `out` as it was on failure, apart from what
+                 pia_points_clear gives back */
 
 /* The registry, collected from the files format_*.c; NULL past the end. */
 const pia_format *pia_format_list(pia_index index);
-/* By name, or by the extension of path when name is NULL; NULL when unknown. */
+/* By name or extension in `name`, or by the extension of path when name is NULL; NULL when unknown. */
 const pia_format *pia_format_find(const char *name, const char *path);
 
 #endif

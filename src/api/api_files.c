@@ -1,0 +1,133 @@
+#include "io.h"
+#include "options.h"
+
+#include <string.h>
+
+void pia_points_options_init(pia_points_options *options)
+{
+    *options = (pia_points_options){.struct_size = sizeof *options};
+}
+
+/* The format asked for, by name or extension; `otherwise` for standard streams. */
+static const pia_format *find_format(pia_context *context, const char *path, const char *name, const char *otherwise)
+{
+    const pia_format *format = pia_format_find(name, path);
+    if (format == NULL && name == NULL && path != NULL && strcmp(path, "-") == 0) format = pia_format_find(otherwise, NULL);
+    if (format != NULL) return format;
+    if (name != NULL)
+        pia_fail(context, PIA_E_ARGUMENT, "there is no format '%.60s'; take one that `pia list formats` names", name);
+    else
+        pia_fail(context, PIA_E_ARGUMENT, "%s: no format has this extension; name the format", path != NULL ? path : "");
+    return NULL;
+}
+
+static pia_status refuse_use(pia_context *context, const char *path, const pia_format *format, const char *use)
+{
+    return pia_fail(context, PIA_E_ARGUMENT, "%s: the format %s %s; take another", path, format->name, use);
+}
+
+pia_status pia_points_read(pia_context *context, const char *path, const pia_points_options *options, pia_points **out)
+{
+    pia_points_options o;
+    pia_points_options_init(&o);
+    pia_status status = pia_options_read(context, "pia_points_options", &o, sizeof o, options);
+    if (status != PIA_OK) return status;
+    if (out == NULL || path == NULL) return pia_fail(context, PIA_E_ARGUMENT, "a path and an output are needed");
+    const pia_format *format = find_format(context, path, o.format, "text");
+    if (format == NULL) return PIA_E_ARGUMENT;
+    if (format->read_points == NULL) return refuse_use(context, path, format, "holds no points that can be read");
+
+    pia_input input;
+    pia_points *points = pia_take_zero(context, 1, sizeof *points);
+    if (points == NULL) return pia_take_status(context, 1, sizeof *points);
+    points->memory = *pia_memory_of(context);
+    status = pia_input_open(context, path, &input);
+    if (status == PIA_OK) {
+        status = format->read_points(context, &input, &o, points);
+        pia_input_close(context, &input);
+    }
+    if (status != PIA_OK) {
+        pia_points_destroy(points);
+        return status;
+    }
+    points->format = format->name;
+    points->whole[1] = points->count[0];
+    *out = points;
+    return PIA_OK;
+}
+
+void pia_points_get_info(const pia_points *points, pia_points_info *out)
+{
+    const char *const *names;
+    memcpy(&names, &points->names, sizeof names);
+    *out = (pia_points_info){.struct_size = sizeof *out,
+                             .kind = points->kind,
+                             .points = points->points,
+                             .count = {points->count[0], points->count[1]},
+                             .dim = points->dim,
+                             .part_count = points->part != NULL ? points->part_count : 1,
+                             .part = points->part != NULL ? points->part : points->whole,
+                             .skipped = points->skipped,
+                             .row = points->row,
+                             .names = names,
+                             .format = points->format};
+}
+
+void pia_points_destroy(pia_points *points)
+{
+    if (points == NULL) return;
+    pia_memory memory = points->memory;
+    pia_points_clear(points);
+    pia_memory_give(&memory, points);
+}
+
+pia_status pia_table_write(pia_context *context, const char *path, const char *format, const char *header, const double *values,
+                           pia_index rows, int columns)
+{
+    pia_index count;
+    if (path == NULL || columns < 1 || rows < 0 || (values == NULL && rows > 0) || !pia_multiply(rows, columns, &count))
+        return pia_fail(context, PIA_E_ARGUMENT, "a table of %lld rows and %d columns cannot be written", (long long)rows, columns);
+    const pia_format *writer = find_format(context, path, format, "text");
+    if (writer == NULL) return PIA_E_ARGUMENT;
+    if (writer->write_table == NULL) return refuse_use(context, path, writer, "holds no tables");
+    pia_output *output;
+    pia_status status = pia_output_open(context, path, &output);
+    if (status != PIA_OK) return status;
+    status = writer->write_table(context, output, header, values, rows, columns);
+    if (status == PIA_OK) return pia_output_commit(output);
+    pia_output_abandon(output);
+    return status;
+}
+
+pia_status pia_model_read(pia_context *context, const char *path, const char *format, pia_model ***out, pia_index *count)
+{
+    if (path == NULL || out == NULL || count == NULL) return pia_fail(context, PIA_E_ARGUMENT, "a path and two outputs are needed");
+    const pia_format *reader = find_format(context, path, format, "json");
+    if (reader == NULL) return PIA_E_ARGUMENT;
+    if (reader->read_models == NULL) return refuse_use(context, path, reader, "holds no models that can be read");
+    pia_input input;
+    pia_status status = pia_input_open(context, path, &input);
+    if (status != PIA_OK) return status;
+    status = reader->read_models(context, &input, out, count);
+    pia_input_close(context, &input);
+    return status;
+}
+
+pia_status pia_model_write(pia_context *context, const char *path, const char *format, const pia_model *const *models, pia_index count,
+                           pia_index samples)
+{
+    if (path == NULL || models == NULL || count < 1)
+        return pia_fail(context, PIA_E_ARGUMENT, "a path and at least one model are needed");
+    for (pia_index k = 0; k < count; k++)
+        if (models[k] == NULL) return pia_fail(context, PIA_E_ARGUMENT, "model %lld is NULL", (long long)k);
+    const pia_format *writer = find_format(context, path, format, "json");
+    if (writer == NULL) return PIA_E_ARGUMENT;
+    if (writer->write_models == NULL) return refuse_use(context, path, writer, "holds no models");
+    pia_output *output;
+    pia_status status = pia_output_open(context, path, &output);
+    if (status != PIA_OK) return status;
+    status = writer->write_models(context, output, models, count, samples);
+    if (status == PIA_OK) return pia_output_commit(output);
+    pia_output_abandon(output);
+    return status;
+}

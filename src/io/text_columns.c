@@ -1,0 +1,81 @@
+#include "text.h"
+
+#include <string.h>
+
+/* The field with that name, or the number from 1 that the text spells; -1 when there is none. */
+static pia_index find_field(const pia_text_layout *layout, const char *text, size_t length)
+{
+    pia_text_field field;
+    const char *p = layout->names.begin;
+    for (pia_index i = 0; p != NULL && pia_text_next_field(&layout->names, layout->delimiter, &p, &field); i++)
+        if ((size_t)(field.end - field.begin) == length && memcmp(field.begin, text, length) == 0) return i;
+    pia_index number = 0;
+    for (size_t i = 0; i < length && number <= layout->field_count; i++) {
+        if (text[i] < '0' || text[i] > '9') return -1;
+        number = number * 10 + (text[i] - '0');
+    }
+    return number <= layout->field_count ? number - 1 : -1;
+}
+
+static void choose_numeric(const pia_text_layout *layout, pia_text_columns *columns)
+{
+    for (pia_index f = 0; f < layout->field_count; f++) {
+        if (!layout->numeric[f]) continue;
+        columns->slot[f] = columns->count;
+        columns->field[columns->count++] = f;
+    }
+}
+
+static pia_status refuse_column(pia_context *context, const pia_input *input, const pia_text_layout *layout, const char *name,
+                                int length)
+{
+    char names[200] = "it has no names";
+    size_t size = (size_t)(layout->names.end - layout->names.begin);
+    if (layout->names.begin != NULL && size < sizeof names) {
+        memcpy(names, layout->names.begin, size);
+        names[size] = '\0';
+    }
+    return pia_fail(context, PIA_E_ARGUMENT, "%s: there is no column '%.*s'; give names (%s) or numbers from 1 to %lld", input->path,
+                    length, name, names, (long long)layout->field_count);
+}
+
+static pia_status choose_listed(pia_context *context, const pia_input *input, const pia_text_layout *layout, const char *list,
+                                pia_text_columns *columns)
+{
+    for (;;) {
+        size_t length = strcspn(list, ",");
+        size_t shown = length < 40 ? length : 40;
+        pia_index f = find_field(layout, list, length);
+        if (f < 0) return refuse_column(context, input, layout, list, (int)shown);
+        if (columns->slot[f] >= 0)
+            return pia_fail(context, PIA_E_ARGUMENT, "column '%.*s' is listed twice; list each column once", (int)shown, list);
+        columns->slot[f] = columns->count;
+        columns->field[columns->count++] = f;
+        if (list[length] == '\0') return PIA_OK;
+        list += length + 1;
+    }
+}
+
+pia_status pia_text_choose_columns(pia_context *context, const pia_input *input, const pia_text_layout *layout, const char *list,
+                                   pia_text_columns *out)
+{
+    pia_text_columns columns = {.slot = pia_take(context, layout->field_count, sizeof *columns.slot),
+                                .field = pia_take(context, layout->field_count, sizeof *columns.field)};
+    pia_status status = PIA_OK;
+    if (columns.slot == NULL || columns.field == NULL) {
+        status = pia_take_status(context, layout->field_count, sizeof *columns.slot);
+    } else {
+        for (pia_index f = 0; f < layout->field_count; f++) columns.slot[f] = -1;
+        if (list == NULL)
+            choose_numeric(layout, &columns);
+        else
+            status = choose_listed(context, input, layout, list, &columns);
+    }
+    if (status == PIA_OK) {
+        *out = columns;
+    } else {
+        pia_give(context, columns.slot);
+        pia_give(context, columns.field);
+    }
+    return status;
+}
