@@ -26,26 +26,16 @@ static pia_status refuse_use(pia_context *context, const char *path, const pia_f
     return pia_fail(context, PIA_E_ARGUMENT, "%s: the format %s %s; take another", path, format->name, use);
 }
 
-pia_status pia_points_read(pia_context *context, const char *path, const pia_points_options *options, pia_points **out)
+static pia_status read_points(pia_context *context, const char *path, const pia_input *input, const pia_points_options *options,
+                              pia_points **out)
 {
-    pia_points_options o;
-    pia_points_options_init(&o);
-    pia_status status = pia_options_read(context, "pia_points_options", &o, sizeof o, options);
-    if (status != PIA_OK) return status;
-    if (out == NULL || path == NULL) return pia_fail(context, PIA_E_ARGUMENT, "a path and an output are needed");
-    const pia_format *format = find_format(context, path, o.format, "text");
+    const pia_format *format = find_format(context, path, options->format, "text");
     if (format == NULL) return PIA_E_ARGUMENT;
     if (format->read_points == NULL) return refuse_use(context, path, format, "holds no points that can be read");
-
-    pia_input input;
     pia_points *points = pia_take_zero(context, 1, sizeof *points);
     if (points == NULL) return pia_take_status(context, 1, sizeof *points);
     points->memory = *pia_memory_of(context);
-    status = pia_input_open(context, path, &input);
-    if (status == PIA_OK) {
-        status = format->read_points(context, &input, &o, points);
-        pia_input_close(context, &input);
-    }
+    pia_status status = format->read_points(context, input, options, points);
     if (status != PIA_OK) {
         pia_points_destroy(points);
         return status;
@@ -54,6 +44,21 @@ pia_status pia_points_read(pia_context *context, const char *path, const pia_poi
     points->whole[1] = points->count[0];
     *out = points;
     return PIA_OK;
+}
+
+pia_status pia_points_read(pia_context *context, const char *path, const pia_points_options *options, pia_points **out)
+{
+    pia_points_options o;
+    pia_points_options_init(&o);
+    pia_status status = pia_options_read(context, "pia_points_options", &o, sizeof o, options);
+    if (status != PIA_OK) return status;
+    if (out == NULL || path == NULL) return pia_fail(context, PIA_E_ARGUMENT, "a path and an output are needed");
+    pia_input input;
+    status = pia_input_open(context, path, &input);
+    if (status != PIA_OK) return status;
+    status = read_points(context, path, &input, &o, out);
+    pia_input_close(context, &input);
+    return status;
 }
 
 void pia_points_get_info(const pia_points *points, pia_points_info *out)
@@ -102,13 +107,16 @@ pia_status pia_table_write(pia_context *context, const char *path, const char *f
 pia_status pia_model_read(pia_context *context, const char *path, const char *format, pia_model ***out, pia_index *count)
 {
     if (path == NULL || out == NULL || count == NULL) return pia_fail(context, PIA_E_ARGUMENT, "a path and two outputs are needed");
-    const pia_format *reader = find_format(context, path, format, "json");
-    if (reader == NULL) return PIA_E_ARGUMENT;
-    if (reader->read_models == NULL) return refuse_use(context, path, reader, "holds no models that can be read");
     pia_input input;
     pia_status status = pia_input_open(context, path, &input);
     if (status != PIA_OK) return status;
-    status = reader->read_models(context, &input, out, count);
+    const pia_format *reader = find_format(context, path, format, "json");
+    if (reader == NULL)
+        status = PIA_E_ARGUMENT;
+    else if (reader->read_models == NULL)
+        status = refuse_use(context, path, reader, "holds no models that can be read");
+    else
+        status = reader->read_models(context, &input, out, count);
     pia_input_close(context, &input);
     return status;
 }
@@ -130,4 +138,12 @@ pia_status pia_model_write(pia_context *context, const char *path, const char *f
     if (status == PIA_OK) return pia_output_commit(output);
     pia_output_abandon(output);
     return status;
+}
+
+void pia_models_destroy(pia_model **models, pia_index count)
+{
+    if (models == NULL || count < 1) return;
+    const pia_memory memory = models[0]->memory;
+    for (pia_index k = 0; k < count; k++) pia_model_destroy(models[k]);
+    pia_memory_give(&memory, models);
 }
