@@ -26,7 +26,7 @@ static int enter_folder(void **state)
 
 static int leave_folder(void **state)
 {
-    char command[128];
+    char command[256];
     snprintf(command, sizeof command, "chmod -R u+rwx %s; rm -rf %s", folder, folder);
     pia_context_destroy(*state);
     return system(command);
@@ -34,7 +34,7 @@ static int leave_folder(void **state)
 
 static int file_count(void)
 {
-    char command[128];
+    char command[256];
     snprintf(command, sizeof command, "ls -A %s | wc -l", folder);
     FILE *pipe = popen(command, "r");
     int count = -1;
