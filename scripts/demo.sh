@@ -8,7 +8,7 @@ pictures=
 
 # value KEY FILE: a number or a word of a JSON object.
 value() {
-    tr ',{}' '\n\n\n' <"$2" | sed -n "s/^ *\"$1\": *//p" | tr -d '"' | head -n 1
+    tr ',{}' '[\n*]' <"$2" | sed -n "s/^ *\"$1\": *//p" | tr -d '"' | head -n 1
 }
 
 # show NAME POINTS OPTION...: fits, draws data with model and history, and adds a row to the table. A tolerance that was not reached
