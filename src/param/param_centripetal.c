@@ -19,7 +19,7 @@ static pia_status compute(pia_context *context, const double *points, pia_index 
 const pia_parametrization pia_param_centripetal = {
     .name = "centripetal",
     .title = "centripetal: square roots of the chords",
-    .reference = "lee-1989",
+    .reference = "lee1989",
     .detail = "fewer loops where chords are very uneven or turns are sharp; equal neighbours get equal parameters",
     .compute = compute,
 };

@@ -11,7 +11,7 @@ static pia_status compute(pia_context *context, const double *points, pia_index 
 const pia_parametrization pia_param_chord = {
     .name = "chord",
     .title = "chord length: proportional to the distance travelled",
-    .reference = "piegl-tiller-1997",
+    .reference = "piegl1997",
     .detail = "the usual choice; equal neighbours get equal parameters",
     .compute = compute,
 };

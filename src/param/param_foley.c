@@ -60,7 +60,7 @@ static pia_status compute(pia_context *context, const double *points, pia_index 
 const pia_parametrization pia_param_foley = {
     .name = "foley",
     .title = "Foley-Nielson: chords weighted by the angles at their ends",
-    .reference = "foley-nielson-1989",
+    .reference = "foley1989",
     .detail = "gives sharp turns more room than chord length does; equal neighbours get equal parameters",
     .compute = compute,
 };

@@ -13,7 +13,7 @@ static pia_status compute(pia_context *context, const double *points, pia_index 
 const pia_parametrization pia_param_uniform = {
     .name = "uniform",
     .title = "uniform: equal steps, whatever the distances",
-    .reference = "piegl-tiller-1997",
+    .reference = "piegl1997",
     .detail = "for points taken at equal times or on a regular grid",
     .compute = compute,
 };

@@ -1,5 +1,5 @@
 /* Knots as means of `degree` consecutive parameters. The basis function on knots k .. k + degree + 1 is then centred on one parameter,
- * so every control point has its data point, and Schoenberg-Whitney holds (de Boor 1978; The NURBS Book, Eq. 9.8). */
+ * so every control point has its data point, and Schoenberg-Whitney holds (de Boor 2001; The NURBS Book, Eq. 9.8). */
 #include "spacing.h"
 
 /* Mean of t[0 .. degree - 1], as t[0] plus the mean difference: equal parameters give their own value. */
@@ -35,7 +35,7 @@ static pia_status place(pia_context *context, const pia_place_problem *p, double
 const pia_placement pia_place_average = {
     .name = "average",
     .title = "averaging: knots are means of as many parameters as the degree",
-    .reference = "deboor-1978",
+    .reference = "deboor2001",
     .detail = "interpolation of any parameters; as many control points as data points",
     .square = 1,
     .place = place,

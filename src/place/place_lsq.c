@@ -76,7 +76,7 @@ static pia_status place(pia_context *context, const pia_place_problem *p, double
 const pia_placement pia_place_lsq = {
     .name = "lsq",
     .title = "least-squares spacing: about as many parameters in every span",
-    .reference = "piegl-tiller-1997",
+    .reference = "piegl1997",
     .detail = "up to as many control points as there are different parameters; every span holds data",
     .square = 0,
     .place = place,

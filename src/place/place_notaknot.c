@@ -1,4 +1,4 @@
-/* Parameters are knots, except the first and the last few inside ones; for even degrees their midpoints are (not-a-knot; de Boor 1978,
+/* Parameters are knots, except the first and the last few inside ones; for even degrees their midpoints are (not-a-knot; de Boor 2001,
  * chapter IV). These are also the default knots of SciPy's make_interp_spline. */
 #include "spacing.h"
 
@@ -26,7 +26,7 @@ static pia_status place(pia_context *context, const pia_place_problem *p, double
 const pia_placement pia_place_notaknot = {
     .name = "notaknot",
     .title = "not-a-knot: parameters are knots but for the outermost inside ones",
-    .reference = "deboor-1978",
+    .reference = "deboor2001",
     .detail = "interpolation; odd degrees have knots at the data, even degrees half-way; as many control points as data points",
     .square = 1,
     .place = place,

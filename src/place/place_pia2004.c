@@ -20,7 +20,7 @@ static pia_status place(pia_context *context, const pia_place_problem *p, double
 const pia_placement pia_place_pia2004 = {
     .name = "pia2004",
     .title = "the knots of the 2004 format: accumulated chords",
-    .reference = "lin-2004",
+    .reference = "lin2004",
     .detail = "cubic, open; two control points more than data points, the doubled ends",
     .square = 1,
     .place = place,

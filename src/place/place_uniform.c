@@ -20,7 +20,7 @@ static pia_status place(pia_context *context, const pia_place_problem *p, double
 const pia_placement pia_place_uniform = {
     .name = "uniform",
     .title = "uniform: equal spans",
-    .reference = "piegl-tiller-1997",
+    .reference = "piegl1997",
     .detail = "any number of control points; may leave spans without data",
     .square = 0,
     .place = place,
