@@ -56,9 +56,9 @@ void pia_op_close(pia_op *op)
 pia_index pia_op_unknown(const pia_op *op, pia_index control)
 {
     if (op->identity) return control;
-    if (op->directions == 1) return pia_collocation_unknown(op->line[0], control);
+    if (op->directions == 1) return pia_collocation_unknown(op->axis[0], control);
     pia_index i = control / op->full_count[1], j = control % op->full_count[1];
-    return pia_collocation_unknown(op->line[0], i) * op->count[1] + pia_collocation_unknown(op->line[1], j);
+    return pia_collocation_unknown(op->axis[0], i) * op->count[1] + pia_collocation_unknown(op->axis[1], j);
 }
 
 void pia_op_expand(const pia_op *op, const double *x, int dim, double *full)

@@ -45,6 +45,9 @@ struct pia_op {
     pia_context *context;
     int directions;           /* 1 or 2 */
     pia_collocation *line[2]; /* of a curve or grid, borrowed; NULL for scattered points */
+    const pia_collocation
+        *axis[2];        /* knots and maps of every direction; the lines of a curve or grid, without rows for scattered points */
+    const double *pairs; /* scattered points: parameters [rows x 2] in the order of the data, borrowed; else NULL */
     pia_index rows, cols, fulls;
     pia_index count[2]; /* unknowns a direction, cols = count[0] * count[1] */
     pia_index full_count[2];

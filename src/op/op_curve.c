@@ -191,7 +191,7 @@ pia_status pia_op_curve_open(pia_context *context, pia_collocation *line, const 
     pia_status status = pia_op_new(context, &curve, 1, &line->unknowns, &line->full, line->rows, weights, dim, &op);
     if (status != PIA_OK) return status;
     pia_index tails = chunk_count(line->rows) * line->degree * dim;
-    op->line[0] = line;
+    op->axis[0] = op->line[0] = line;
     op->along = pia_take(context, tails, sizeof *op->along);
     if (op->along == NULL) {
         pia_op_close(op);

@@ -191,8 +191,8 @@ pia_status pia_op_grid_open(pia_context *context, pia_collocation *u, pia_colloc
                         (long long)v->rows);
     pia_status status = pia_op_new(context, &grid, 2, unknowns, fulls, rows, weights, dim, &op);
     if (status != PIA_OK) return status;
-    op->line[0] = u;
-    op->line[1] = v;
+    op->axis[0] = op->line[0] = u;
+    op->axis[1] = op->line[1] = v;
     pass p = pass_over(op, dim, u->rows, v->rows);
     size = (u->full + p.chunks) * v->rows * dim; /* the contraction along v, and a spare line a chunk */
     op->along = pia_take(context, size, sizeof *op->along);

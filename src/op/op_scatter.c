@@ -1,0 +1,344 @@
+#include "op_scatter.h"
+
+#include "basis.h"
+#include "kernel.h"
+#include "knots.h"
+
+#include <math.h>
+#include <string.h>
+
+enum { GRAIN = 8192, MAX_CHUNKS = 64 };
+
+/* ---- sorting ---- */
+
+typedef struct sorting {
+    pia_scatter *scatter;
+    const double *parameters;
+    pia_index rows, chunks;
+    pia_index *cell; /* [rows] */
+} sorting;
+
+/* Knots are mostly even: the span that even knots would give is the place to start looking. */
+static pia_index span_of(const pia_collocation *axis, double t)
+{
+    const double *knots = axis->knots;
+    pia_index spans = axis->full - axis->degree;
+    double first = knots[axis->degree], share = (t - first) / (knots[axis->full] - first) * (double)spans;
+    pia_index guess = share > 0 ? share < (double)spans ? (pia_index)share : spans - 1 : 0;
+    return pia_knots_span_near(knots, axis->degree, axis->full, t, axis->degree + guess) - axis->degree;
+}
+
+static void find_cells(void *work, pia_index chunk)
+{
+    const sorting *s = work;
+    const pia_scatter *scatter = s->scatter;
+    pia_index to = pia_chunk_begin(s->rows, s->chunks, chunk + 1);
+    for (pia_index row = pia_chunk_begin(s->rows, s->chunks, chunk); row < to; row++)
+        s->cell[row] = span_of(&scatter->axis[0], s->parameters[2 * row]) * scatter->cells[1] +
+                       span_of(&scatter->axis[1], s->parameters[2 * row + 1]);
+}
+
+/* Counting sort, stable: begin[] first counts, then holds where the next row of a cell goes, and ends one cell too far. */
+static void sort_rows(const sorting *s, pia_index cells)
+{
+    pia_scatter *scatter = s->scatter;
+    pia_index *begin = scatter->begin;
+    memset(begin, 0, (size_t)(cells + 1) * sizeof *begin);
+    for (pia_index row = 0; row < s->rows; row++) begin[s->cell[row] + 1]++;
+    for (pia_index c = 0; c < cells; c++) begin[c + 1] += begin[c];
+    for (pia_index row = 0; row < s->rows; row++) {
+        pia_index at = begin[s->cell[row]]++;
+        scatter->order[at] = row;
+        scatter->sorted[2 * at] = s->parameters[2 * row];
+        scatter->sorted[2 * at + 1] = s->parameters[2 * row + 1];
+    }
+    memmove(begin + 1, begin, (size_t)cells * sizeof *begin);
+    begin[0] = 0;
+}
+
+pia_index pia_scatter_strip(const pia_scatter *scatter, pia_index chunks, pia_index chunk)
+{
+    pia_index low = 0, high = scatter->cells[0], rows = scatter->begin[scatter->cells[0] * scatter->cells[1]];
+    if (chunk == chunks) return high;
+    while (low < high) {
+        pia_index middle = low + (high - low) / 2;
+        if (scatter->begin[middle * scatter->cells[1]] < pia_chunk_begin(rows, chunks, chunk))
+            low = middle + 1;
+        else
+            high = middle;
+    }
+    return low;
+}
+
+pia_index pia_scatter_chunks(const pia_scatter *scatter)
+{
+    pia_index chunks = pia_chunk_count(scatter->begin[scatter->cells[0] * scatter->cells[1]], GRAIN);
+    if (chunks > scatter->cells[0]) chunks = scatter->cells[0];
+    return chunks < MAX_CHUNKS ? chunks : MAX_CHUNKS;
+}
+
+/* ---- passes ---- */
+
+typedef struct pass {
+    const pia_scatter *scatter;
+    pia_index chunks;
+    const double *full, *weights, *in, *base;
+    const pia_targets *targets;
+    double factor;
+    int dim;
+    double *out;
+    double *tail;       /* gather: [chunks x degree of u x full of v x dim] sums beyond a chunk's own lines of control points */
+    pia_errors *errors; /* [chunks] */
+} pass;
+
+/* The rows of one cell and the control point of its lowest corner. */
+typedef struct cell {
+    pia_index strip, column, begin, end;
+    int p, q;
+} cell;
+
+static cell cell_at(const pia_scatter *scatter, pia_index strip, pia_index column)
+{
+    pia_index c = strip * scatter->cells[1] + column;
+    return (cell){strip, column, scatter->begin[c], scatter->begin[c + 1], scatter->axis[0].degree, scatter->axis[1].degree};
+}
+
+static void row_values(const pia_scatter *scatter, const cell *c, pia_index at, double *u, double *v)
+{
+    pia_basis_values(scatter->axis[0].knots, c->p, c->p + c->strip, scatter->sorted[2 * at], u);
+    pia_basis_values(scatter->axis[1].knots, c->q, c->q + c->column, scatter->sorted[2 * at + 1], v);
+}
+
+/* sum [dim] = value of the model at a sorted row. */
+static void model_value(const pass *p, const cell *c, pia_index at, double *sum)
+{
+    double u[PIA_MAX_DEGREE + 1], v[PIA_MAX_DEGREE + 1];
+    pia_index line = p->scatter->axis[1].full;
+    int dim = p->dim;
+    row_values(p->scatter, c, at, u, v);
+    for (int d = 0; d < dim; d++) sum[d] = 0;
+    for (int i = 0; i <= c->p; i++) {
+        const double *control = p->full + ((c->strip + i) * line + c->column) * dim;
+        double along[PIA_MAX_DIM] = {0};
+        for (int j = 0; j <= c->q; j++)
+            for (int d = 0; d < dim; d++) along[d] += v[j] * control[j * dim + d];
+        for (int d = 0; d < dim; d++) sum[d] += u[i] * along[d];
+    }
+}
+
+static void apply_chunk(void *work, pia_index chunk)
+{
+    const pass *p = work;
+    const pia_scatter *scatter = p->scatter;
+    pia_index to = pia_scatter_strip(scatter, p->chunks, chunk + 1);
+    for (pia_index strip = pia_scatter_strip(scatter, p->chunks, chunk); strip < to; strip++)
+        for (pia_index column = 0; column < scatter->cells[1]; column++) {
+            cell c = cell_at(scatter, strip, column);
+            for (pia_index at = c.begin; at < c.end; at++) model_value(p, &c, at, p->out + scatter->order[at] * p->dim);
+        }
+}
+
+/* Joins errors of rows in any order: the smallest row of equals. */
+static void note_square(pia_errors *e, double *worst, double square, double weight, pia_index row)
+{
+    e->count++;
+    e->sum_squares += square;
+    e->weighted += weight * square;
+    if (square > *worst || (square == *worst && row < e->max_row)) {
+        *worst = square;
+        e->max_row = row;
+    }
+}
+
+static void residual_chunk(void *work, pia_index chunk)
+{
+    const pass *p = work;
+    const pia_scatter *scatter = p->scatter;
+    int dim = p->dim;
+    double sum[PIA_MAX_DIM], worst = -1;
+    pia_errors e = {0, -1, 0, 0, 0};
+    pia_index to = pia_scatter_strip(scatter, p->chunks, chunk + 1);
+    for (pia_index strip = pia_scatter_strip(scatter, p->chunks, chunk); strip < to; strip++)
+        for (pia_index column = 0; column < scatter->cells[1]; column++) {
+            cell c = cell_at(scatter, strip, column);
+            for (pia_index at = c.begin; at < c.end; at++) {
+                pia_index row = scatter->order[at];
+                const double *target = p->targets->points + row * dim;
+                double square = 0;
+                model_value(p, &c, at, sum);
+                for (int d = 0; d < dim; d++) {
+                    double difference = target[d] - p->targets->origin[d] - sum[d];
+                    square += difference * difference;
+                    if (p->out != NULL)
+                        p->out[row * dim + d] = p->base != NULL ? p->base[row * dim + d] + p->factor * difference : difference;
+                }
+                note_square(&e, &worst, square, p->weights != NULL ? p->weights[row] : 1, row);
+            }
+        }
+    e.max = worst > 0 ? sqrt(worst) : 0;
+    p->errors[chunk] = e;
+}
+
+static void gather_cell(const pass *p, const cell *c, double *const *line)
+{
+    const pia_scatter *scatter = p->scatter;
+    double u[PIA_MAX_DEGREE + 1], v[PIA_MAX_DEGREE + 1];
+    int dim = p->dim;
+    for (pia_index at = c->begin; at < c->end; at++) {
+        pia_index row = scatter->order[at];
+        const double *value = p->in + row * dim;
+        double w = p->weights != NULL ? p->weights[row] : 1;
+        row_values(scatter, c, at, u, v);
+        for (int i = 0; i <= c->p; i++) {
+            double *to = line[i] + c->column * dim, wu = w * u[i];
+            for (int j = 0; j <= c->q; j++)
+                for (int d = 0; d < dim; d++) to[j * dim + d] += wu * v[j] * value[d];
+        }
+    }
+}
+
+/* A chunk owns the lines of control points whose strip it has; what its cells add to the lines behind goes to its tail. */
+static void gather_chunk(void *work, pia_index chunk)
+{
+    const pass *p = work;
+    const pia_scatter *scatter = p->scatter;
+    int degree = scatter->axis[0].degree;
+    pia_index width = scatter->axis[1].full * p->dim;
+    pia_index from = pia_scatter_strip(scatter, p->chunks, chunk), to = pia_scatter_strip(scatter, p->chunks, chunk + 1);
+    double *tail = p->tail + chunk * degree * width, *line[PIA_MAX_DEGREE + 1];
+    memset(p->out + from * width, 0, (size_t)((to - from) * width) * sizeof *p->out);
+    memset(tail, 0, (size_t)(degree * width) * sizeof *tail);
+    for (pia_index strip = from; strip < to; strip++) {
+        for (int i = 0; i <= degree; i++) line[i] = strip + i < to ? p->out + (strip + i) * width : tail + (strip + i - to) * width;
+        for (pia_index column = 0; column < scatter->cells[1]; column++) {
+            cell c = cell_at(scatter, strip, column);
+            gather_cell(p, &c, line);
+        }
+    }
+}
+
+static pass pass_over(const pia_op *op, int dim)
+{
+    const pia_scatter *scatter = op->state;
+    return (pass){.scatter = scatter, .chunks = pia_scatter_chunks(scatter), .dim = dim, .weights = op->weights, .tail = op->along};
+}
+
+static void apply(const pia_op *op, const double *full, int dim, double *values)
+{
+    pass p = pass_over(op, dim);
+    p.full = full;
+    p.out = values;
+    pia_for_each(op->context, p.chunks, apply_chunk, &p);
+}
+
+static pia_errors residual(const pia_op *op, const double *full, const pia_targets *targets, const double *base, double factor,
+                           double *out)
+{
+    pia_errors errors[MAX_CHUNKS];
+    pass p = pass_over(op, targets->dim);
+    p.full = full;
+    p.targets = targets;
+    p.base = base;
+    p.factor = factor;
+    p.out = out;
+    p.errors = errors;
+    pia_for_each(op->context, p.chunks, residual_chunk, &p);
+    for (pia_index c = 1; c < p.chunks; c++) /* rows are not in order here: of equals, the smaller row counts as the earlier one */
+        errors[0] =
+            errors[c].max_row < errors[0].max_row ? pia_errors_join(errors[c], errors[0]) : pia_errors_join(errors[0], errors[c]);
+    return errors[0];
+}
+
+static void gather(const pia_op *op, const double *values, const double *weights, int dim, double *full)
+{
+    pass p = pass_over(op, dim);
+    p.in = values;
+    p.weights = weights;
+    p.out = full;
+    pia_for_each(op->context, p.chunks, gather_chunk, &p);
+    pia_index width = p.scatter->axis[1].full * dim, size = p.scatter->axis[0].degree * width;
+    memset(full + p.scatter->cells[0] * width, 0, (size_t)size * sizeof *full);
+    for (pia_index chunk = 0; chunk < p.chunks; chunk++) {
+        double *to = full + pia_scatter_strip(p.scatter, p.chunks, chunk + 1) * width;
+        for (pia_index k = 0; k < size; k++) to[k] += p.tail[chunk * size + k];
+    }
+}
+
+/* ---- opening ---- */
+
+static void close_state(pia_op *op)
+{
+    pia_scatter *scatter = op->state;
+    if (scatter == NULL) return;
+    for (int d = 0; d < 2; d++) pia_collocation_close(op->context, &scatter->axis[d]);
+    pia_give(op->context, scatter->begin);
+    pia_give(op->context, scatter->order);
+    pia_give(op->context, scatter->sorted);
+    pia_give(op->context, scatter);
+}
+
+static const pia_op_class scatter_class = {"scatter", apply, gather, residual, close_state};
+
+static pia_status take_rows(pia_op *op, const double *parameters)
+{
+    pia_scatter *scatter = op->state;
+    pia_index cells = scatter->cells[0] * scatter->cells[1], tails;
+    scatter->begin = pia_take(op->context, cells + 1, sizeof *scatter->begin);
+    scatter->order = pia_take(op->context, op->rows, sizeof *scatter->order);
+    scatter->sorted = pia_take(op->context, op->rows, 2 * sizeof *scatter->sorted);
+    pia_index *cell_of = pia_take(op->context, op->rows, sizeof *cell_of);
+    int ready = scatter->begin != NULL && scatter->order != NULL && scatter->sorted != NULL && cell_of != NULL;
+    if (ready) {
+        sorting s = {scatter, parameters, op->rows, pia_chunk_count(op->rows, GRAIN), cell_of};
+        pia_for_each(op->context, s.chunks, find_cells, &s);
+        sort_rows(&s, cells);
+    }
+    pia_give(op->context, cell_of);
+    if (!ready) return pia_take_status(op->context, op->rows, 2 * sizeof *scatter->sorted);
+    if (!pia_multiply(pia_scatter_chunks(scatter) * scatter->axis[0].degree * op->dim, scatter->axis[1].full, &tails))
+        return PIA_E_SIZE;
+    op->along = pia_take(op->context, tails, sizeof *op->along);
+    return op->along != NULL ? PIA_OK : pia_take_status(op->context, tails, sizeof *op->along);
+}
+
+static pia_status fill(pia_op *op, pia_collocation *axis, const double *parameters)
+{
+    pia_scatter *scatter = pia_take_zero(op->context, 1, sizeof *scatter);
+    if (scatter == NULL) return pia_take_status(op->context, 1, sizeof *scatter);
+    op->state = scatter;
+    op->pairs = parameters;
+    for (int d = 0; d < 2; d++) {
+        scatter->axis[d] = axis[d];
+        axis[d] = (pia_collocation){0};
+        op->axis[d] = &scatter->axis[d];
+        scatter->cells[d] = scatter->axis[d].full - scatter->axis[d].degree;
+    }
+    return take_rows(op, parameters);
+}
+
+pia_status pia_op_scatter_open(pia_context *context, const int *degree, const pia_map *map, const double *const *knots,
+                               const pia_index *full, const double *parameters, pia_index rows, const double *weights, int dim,
+                               pia_op **out)
+{
+    pia_collocation axis[2] = {{0}, {0}};
+    pia_op *op = NULL;
+    pia_status status = PIA_OK;
+    for (int d = 0; d < 2 && status == PIA_OK; d++)
+        status = pia_collocation_open(context, degree[d], map[d], 0, knots[d], full[d], NULL, 0, 0, &axis[d]);
+    if (status == PIA_OK) {
+        pia_index unknowns[2] = {axis[0].unknowns, axis[1].unknowns};
+        status = pia_op_new(context, &scatter_class, 2, unknowns, full, rows, weights, dim, &op);
+    }
+    if (status == PIA_OK) status = fill(op, axis, parameters);
+    for (int d = 0; d < 2; d++) pia_collocation_close(context, &axis[d]);
+    if (status == PIA_OK)
+        *out = op;
+    else
+        pia_op_close(op);
+    return status;
+}
+
+const pia_scatter *pia_op_scatter(const pia_op *op)
+{
+    return op->class == &scatter_class ? op->state : NULL;
+}
