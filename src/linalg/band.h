@@ -18,7 +18,8 @@ void pia_band_cyclic_solve(const double *ldl, const double *border, pia_index n,
 
 /* Square rows of a collocation matrix: row i has `width` entries, first[i] is the column of its first one, a[i * width + k] the
  * entry (i, first[i] + k); first is non-decreasing. Factors without pivoting, which is stable for the totally positive matrices of
- * B-spline interpolation (de Boor, Pinkus 1977). U has ones on its diagonal; L holds the pivots. */
+ * B-spline interpolation (de Boor, Pinkus 1977). U has ones on its diagonal; L holds the pivots. width <= PIA_MAX_DEGREE + 1, and every
+ * row must reach its diagonal: first[i] <= i < first[i] + width. */
 typedef struct pia_band_lu {
     pia_index n;
     int lower, upper; /* bandwidths found; entries that are exactly 0 do not count */
@@ -35,8 +36,7 @@ void pia_band_lu_clear(pia_context *context, pia_band_lu *lu);
 /* Fills in the rows [begin, end): first[i - begin] and a[(i - begin) * width + k]. */
 typedef void pia_band_rows(void *work, pia_index begin, pia_index end, pia_index *first, double *a);
 /* Factors and solves once, in one pass over rows that are made as they are needed: the matrix and L are never stored. Rows are asked
- * for in order, 128 at a time; width <= PIA_MAX_DEGREE + 1, and every row must reach its diagonal: first[i] <= i < first[i] + width.
- * Memory [n x (width - 1)]. Errors as pia_band_lu_factor, b is then spoilt. */
+ * for in order, 128 at a time. Memory [n x (width - 1)]. Errors as pia_band_lu_factor, b is then spoilt. */
 pia_status pia_band_lu_stream(pia_context *context, pia_band_rows *rows, void *work, pia_index n, int width, double *b, int dim);
 
 /* General band with partial pivoting: entries (i, j), |i - j| bounded by lower and upper, given in a dense row store
