@@ -31,6 +31,26 @@ static void known_values_of_an_open_polyline(void **state)
     assert_near(t[2], (d0 + d1) / (d0 + d1 + d2), 1e-15);
 }
 
+/* Bernstein polynomial i of degree p is largest at i / p; inside functions of uniform knots at the middle of their support. Two spans
+ * of degree 2: 1 - (1 - t)^2 - t^2 / 2 is largest at 2/3 of the first. */
+static void universal_parameters_are_where_basis_functions_are_largest(void **state)
+{
+    (void)state;
+    double points[20], t[20];
+    for (int i = 0; i < 20; i++) points[i] = i * i;
+    const pia_parametrization *rule = rule_named("universal");
+    for (int count = 2; count <= 20; count++) {
+        assert_ok(NULL, rule->compute(NULL, points, count, 1, 25, 0, t));
+        for (int i = 0; i < count; i++) assert_near(t[i], i / (count - 1.0), 1e-7);
+    }
+    assert_ok(NULL, rule->compute(NULL, points, 4, 1, 2, 0, t));
+    assert_near(t[1], 1.0 / 3, 1e-8);
+    assert_near(t[2], 2.0 / 3, 1e-8);
+    assert_ok(NULL, rule->compute(NULL, points, 20, 1, 3, 0, t));
+    for (int i = 3; i < 17; i++) assert_near(t[i], (i - 1) / 17.0, 1e-15);
+    for (int i = 0; i < 20; i++) assert_near(t[i], 1 - t[19 - i], 1e-15);
+}
+
 static void every_rule_runs_from_exactly_0_to_exactly_1(void **state)
 {
     (void)state;
@@ -183,6 +203,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(known_values_of_an_open_polyline),
+        cmocka_unit_test(universal_parameters_are_where_basis_functions_are_largest),
         cmocka_unit_test(every_rule_runs_from_exactly_0_to_exactly_1),
         cmocka_unit_test(the_closing_chord_belongs_to_the_period),
         cmocka_unit_test(t_peer_44_coincident_neighbours_get_equal_parameters),
