@@ -39,8 +39,9 @@ typedef void pia_band_rows(void *work, pia_index begin, pia_index end, pia_index
  * for in order, 128 at a time. Memory [n x (width - 1)]. Errors as pia_band_lu_factor, b is then spoilt. */
 pia_status pia_band_lu_stream(pia_context *context, pia_band_rows *rows, void *work, pia_index n, int width, double *b, int dim);
 
-/* General band with partial pivoting: entries (i, j), |i - j| bounded by lower and upper, given in a dense row store
- * a[i * (lower + 1 + upper) + (j - i + lower)]. For KKT systems. PIA_E_DATA with the row when singular. */
+/* General band with partial pivoting: entries (i, j), -lower <= j - i <= upper, given in a dense row store
+ * a[i * (lower + 1 + upper) + (j - i + lower)]; what lies outside the matrix is ignored. For KKT systems. PIA_E_DATA with the column
+ * when a pivot is at most 2^-52 times the largest entry of its column. Cost n lower (lower + upper). */
 typedef struct pia_band_plu {
     pia_index n;
     int lower, upper;
@@ -59,11 +60,12 @@ typedef struct pia_band_qr {
     double *r, *q;
 } pia_band_qr;
 pia_status pia_band_qr_open(pia_context *context, pia_index columns, int width, int dim, pia_band_qr *out);
-/* row [width] and right [dim] are overwritten. */
+/* row [width] and right [dim] are overwritten; first + width <= columns. */
 void pia_band_qr_add(pia_band_qr *qr, pia_index first, double *row, double *right);
-/* Solution [columns x dim] into x; columns whose diagonal is at most threshold times the largest keep x as it was given.
- * Returns how many those are. */
-pia_index pia_band_qr_solve(const pia_band_qr *qr, double threshold, double *x);
+/* Solution [columns x dim] into x; columns whose diagonal is at most threshold times the largest keep x as it was given, and the others
+ * are the best for it. Returns how many those are; what their rows say about other columns is turned into the rows below, which costs
+ * O(columns width) each and uses the factor up: solve once. */
+pia_index pia_band_qr_solve(pia_band_qr *qr, double threshold, double *x);
 void pia_band_qr_close(pia_context *context, pia_band_qr *qr);
 
 #endif
