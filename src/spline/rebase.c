@@ -29,12 +29,14 @@ void pia_rebase_points(const pia_rebase *r, const double *from, double *to)
 pia_status pia_model_rebase(pia_context *context, const pia_model *model, int direction, int degree, const double *target,
                             pia_index target_control, pia_rebase_rule *rule, pia_model **out)
 {
+    pia_status status = pia_knots_check(context, degree, target, target_control + degree + 1, target_control);
+    if (status != PIA_OK) return status;
     int degrees[2] = {model->degree[0], model->degree[1]};
     pia_index control[2] = {model->control[0], model->control[1]};
     degrees[direction] = degree;
     control[direction] = target_control;
-    pia_model *made;
-    pia_status status = pia_model_new(context, model->directions, degrees, control, model->dim, model->rational, &made);
+    pia_model *made = NULL;
+    status = pia_model_new(context, model->directions, degrees, control, model->dim, model->rational, &made);
     if (status != PIA_OK) return status;
     for (int d = 0; d < model->directions; d++) {
         const double *knots = d == direction ? target : model->knots[d];

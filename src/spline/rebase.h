@@ -8,7 +8,8 @@
 typedef void pia_rebase_rule(const double *knots, int degree, pia_index span, const double *arguments, double *row);
 
 /* One direction of a set of control points [outer x control x inner] and what it becomes. `rule` is pia_basis_blossom for the same
- * degree. target [target_control + its degree + 1] reaches over the same domain. */
+ * degree. target [target_control + its degree + 1] is clamped, over the domain of `knots` or a part of it, and holds the knots inside.
+ */
 typedef struct pia_rebase {
     const double *knots;
     int degree;
@@ -22,7 +23,8 @@ typedef struct pia_rebase {
 /* from [outer x control x inner], to [outer x target_control x inner]; they do not overlap. */
 void pia_rebase_points(const pia_rebase *r, const double *from, double *to);
 
-/* A model with `direction` over the target knots (degree and count given), everything else copied. The rule does the rest. */
+/* A model with `direction` over the target knots, which are checked; everything else is copied, but the summary of a fit is left out.
+ */
 pia_status pia_model_rebase(pia_context *context, const pia_model *model, int direction, int degree, const double *target,
                             pia_index target_control, pia_rebase_rule *rule, pia_model **out);
 
