@@ -8,7 +8,6 @@ enum { SEARCHED_LINES = 1000, SAMPLED_ROWS = 100 };
 typedef struct line_shape {
     char delimiter;
     pia_index fields, numbers, empty;
-    pia_index first_number; /* index of the first field that is a number; -1 */
 } line_shape;
 
 static char guess_delimiter(const pia_text_line *line)
@@ -20,14 +19,12 @@ static char guess_delimiter(const pia_text_line *line)
 
 static line_shape shape_of(const pia_text_line *line)
 {
-    line_shape shape = {.delimiter = guess_delimiter(line), .first_number = -1};
+    line_shape shape = {.delimiter = guess_delimiter(line)};
     const char *p = line->begin;
     pia_text_field field;
     double value;
     for (; pia_text_next_field(line, shape.delimiter, &p, &field); shape.fields++) {
-        int number = pia_text_number(&field, &value);
-        if (number && shape.first_number < 0) shape.first_number = shape.fields;
-        shape.numbers += number;
+        shape.numbers += pia_text_number(&field, &value);
         shape.empty += field.begin == field.end;
     }
     return shape;
@@ -41,6 +38,17 @@ static int holds_numbers_only(const line_shape *shape)
 static int look_alike(const line_shape *a, const line_shape *b)
 {
     return a->delimiter == b->delimiter && a->fields == b->fields && a->numbers > 0 && b->numbers > 0;
+}
+
+/* Every column that holds a number in `row` holds one in `line`: it is a row as well, and no header with a number in it. */
+static int is_like_row(const pia_text_line *line, const pia_text_line *row, char delimiter)
+{
+    const char *p = line->begin, *q = row->begin;
+    pia_text_field field, other;
+    double value;
+    while (pia_text_next_field(line, delimiter, &p, &field) && pia_text_next_field(row, delimiter, &q, &other))
+        if (pia_text_number(&other, &value) && !pia_text_number(&field, &value)) return 0;
+    return 1;
 }
 
 /* The first line at or after p that is neither blank nor a comment; 0 at the end of the file. */
@@ -65,18 +73,17 @@ static int is_count(const line_shape *shape, const pia_text_line *line, const ch
 static const char *find_first_row(const pia_input *input, const char *begin, line_shape *row)
 {
     line_shape previous = {0}, labelled = {0};
-    const char *run = NULL, *labelled_run = NULL;
-    pia_text_line line;
-    const char *p = begin;
+    const char *run = NULL, *labelled_run = NULL, *p = begin;
+    pia_text_line line, first, next;
     for (int i = 0; i < SEARCHED_LINES && next_content(p, input->end, &line); i++, p = line.next) {
         line_shape shape = shape_of(&line);
-        int continues = look_alike(&previous, &shape);
+        int continues = look_alike(&previous, &shape) && (i != 1 || is_like_row(&first, &line, shape.delimiter));
+        if (i == 0) first = line;
+        if (!continues) run = line.begin;
         if (holds_numbers_only(&shape) && !is_count(&shape, &line, input->end)) {
             *row = shape;
-            return continues && i > 1 ? run : line.begin; /* the line before a first row may be a title with a number in it */
+            return run;
         }
-        if (!continues) run = line.begin;
-        pia_text_line next;
         if (labelled_run == NULL && shape.numbers > 0 && (continues || !next_content(line.next, input->end, &next))) {
             labelled_run = run;
             labelled = shape;
@@ -87,13 +94,32 @@ static const char *find_first_row(const pia_input *input, const char *begin, lin
     return labelled_run;
 }
 
-/* Says why a text that is no number keeps a row from being read; NULL when it may be a label. */
-static const char *why_not_label(const pia_text_field *field)
+/* A text column holds labels, but "0,5" or "1 2" in one field tells of a decimal comma or of two delimiters. */
+static pia_status refuse_several_numbers(pia_context *context, const pia_input *input, const pia_text_line *line, char delimiter)
 {
-    pia_text_line whole = {.begin = field->begin, .end = field->end};
-    line_shape parts = shape_of(&whole);
-    if (parts.fields > 1 && holds_numbers_only(&parts)) return "use one delimiter in all rows, and '.' as the decimal point";
-    return NULL;
+    const char *p = line->begin;
+    pia_text_field field;
+    for (pia_index f = 1; pia_text_next_field(line, delimiter, &p, &field); f++) {
+        line_shape parts = shape_of(&(pia_text_line){.begin = field.begin, .end = field.end});
+        if (parts.fields < 2 || !holds_numbers_only(&parts)) continue;
+        char quote[32];
+        pia_input_quote(field.begin, field.end, quote);
+        return pia_input_fail(context, input, field.begin,
+                              "field %lld holds several numbers, '%s'; use one delimiter in all rows, and '.' as the decimal point",
+                              (long long)f, quote);
+    }
+    return PIA_OK;
+}
+
+static pia_status refuse_without_rows(pia_context *context, const pia_input *input, const char *begin)
+{
+    pia_text_line line;
+    const char *p = begin;
+    for (int i = 0; i < SEARCHED_LINES && next_content(p, input->end, &line); i++, p = line.next) {
+        pia_status status = refuse_several_numbers(context, input, &line, guess_delimiter(&line));
+        if (status != PIA_OK) return status;
+    }
+    return pia_input_fail(context, input, NULL, "holds no row of numbers; give at least one point a line");
 }
 
 static pia_status sample_columns(pia_context *context, const pia_input *input, pia_text_layout *layout)
@@ -104,17 +130,10 @@ static pia_status sample_columns(pia_context *context, const pia_input *input, p
         const char *q = line.begin;
         pia_text_field field;
         double value;
-        for (pia_index f = 0; f < layout->field_count && pia_text_next_field(&line, layout->delimiter, &q, &field); f++) {
-            const char *why = NULL;
-            if (pia_text_number(&field, &value))
-                layout->numeric[f] = 1;
-            else if (i == 0 && (why = why_not_label(&field)) != NULL) {
-                char quote[32];
-                pia_input_quote(field.begin, field.end, quote);
-                return pia_input_fail(context, input, field.begin, "field %lld holds several numbers, '%s'; %s", (long long)f + 1,
-                                      quote, why);
-            }
-        }
+        for (pia_index f = 0; f < layout->field_count && pia_text_next_field(&line, layout->delimiter, &q, &field); f++)
+            if (pia_text_number(&field, &value)) layout->numeric[f] = 1;
+        pia_status status = i == 0 ? refuse_several_numbers(context, input, &line, layout->delimiter) : PIA_OK;
+        if (status != PIA_OK) return status;
     }
     return PIA_OK;
 }
@@ -170,7 +189,7 @@ pia_status pia_text_find_layout(pia_context *context, const pia_input *input, pi
     const char *begin = input->begin + (marked ? 3 : 0);
     line_shape row;
     pia_text_layout layout = {.data = find_first_row(input, begin, &row)};
-    if (layout.data == NULL) return pia_input_fail(context, input, NULL, "holds no row of numbers; give at least one point a line");
+    if (layout.data == NULL) return refuse_without_rows(context, input, begin);
     layout.delimiter = row.delimiter;
     layout.field_count = row.fields;
     find_names(input, begin, &layout);

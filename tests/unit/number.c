@@ -48,7 +48,7 @@ static int print_middle(char *text, size_t size, uint64_t bits)
     return snprintf(text, size, "%.800Lg", middle);
 }
 
-static void test_reads_random_doubles_as_strtod_does(void **state)
+static void reads_random_doubles_as_strtod_does(void **state)
 {
     (void)state;
     uint64_t random = 88172645463325252u;
@@ -61,7 +61,7 @@ static void test_reads_random_doubles_as_strtod_does(void **state)
     }
 }
 
-static void test_reads_random_digits_as_strtod_does(void **state)
+static void reads_random_digits_as_strtod_does(void **state)
 {
     (void)state;
     uint64_t random = 42;
@@ -76,7 +76,7 @@ static void test_reads_random_digits_as_strtod_does(void **state)
     }
 }
 
-static void test_reads_middles_of_doubles_as_strtod_does(void **state)
+static void reads_middles_of_doubles_as_strtod_does(void **state)
 {
     (void)state;
     uint64_t random = 7;
@@ -99,7 +99,7 @@ static void test_reads_middles_of_doubles_as_strtod_does(void **state)
     }
 }
 
-static void test_reads_hard_cases_as_strtod_does(void **state)
+static void reads_hard_cases_as_strtod_does(void **state)
 {
     (void)state;
     static const char *const text[] = {
@@ -163,7 +163,7 @@ static void test_reads_hard_cases_as_strtod_does(void **state)
     for (size_t i = 0; i < sizeof text / sizeof *text; i++) check_against_strtod(text[i]);
 }
 
-static void test_reads_very_long_numbers_as_strtod_does(void **state)
+static void reads_very_long_numbers_as_strtod_does(void **state)
 {
     (void)state;
     static char text[20002];
@@ -180,7 +180,7 @@ static void test_reads_very_long_numbers_as_strtod_does(void **state)
     }
 }
 
-static void test_reads_what_is_not_finite(void **state)
+static void reads_what_is_not_finite(void **state)
 {
     (void)state;
     static const char *const text[] = {"nan", "NaN", "inf", "-INF", "Infinity", "+infinity", "infinit"};
@@ -197,7 +197,7 @@ static void test_reads_what_is_not_finite(void **state)
     }
 }
 
-static void test_stops_at_the_end_it_was_given(void **state)
+static void stops_at_the_end_it_was_given(void **state)
 {
     (void)state;
     const char text[] = "123456789.123456789e12";
@@ -214,7 +214,7 @@ static void test_stops_at_the_end_it_was_given(void **state)
     }
 }
 
-static void test_writes_numbers_that_read_back_as_the_same_bits(void **state)
+static void writes_numbers_that_read_back_as_the_same_bits(void **state)
 {
     (void)state;
     uint64_t random = 99;
@@ -229,7 +229,7 @@ static void test_writes_numbers_that_read_back_as_the_same_bits(void **state)
     }
 }
 
-static void test_writes_short_numbers_shortly(void **state)
+static void writes_short_numbers_shortly(void **state)
 {
     (void)state;
     static const struct {
@@ -256,7 +256,7 @@ static void test_writes_short_numbers_shortly(void **state)
     }
 }
 
-static void test_no_locale_changes_reading_or_writing(void **state)
+static void no_locale_changes_reading_or_writing(void **state)
 {
     (void)state;
     static const char *const locale[] = {"de_DE.UTF-8", "de_DE.utf8", "fr_FR.UTF-8", "ps_AF", "tr_TR.UTF-8", "C.UTF-8"};
@@ -276,16 +276,16 @@ static void test_no_locale_changes_reading_or_writing(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_reads_random_doubles_as_strtod_does),
-        cmocka_unit_test(test_reads_random_digits_as_strtod_does),
-        cmocka_unit_test(test_reads_middles_of_doubles_as_strtod_does),
-        cmocka_unit_test(test_reads_hard_cases_as_strtod_does),
-        cmocka_unit_test(test_reads_very_long_numbers_as_strtod_does),
-        cmocka_unit_test(test_reads_what_is_not_finite),
-        cmocka_unit_test(test_stops_at_the_end_it_was_given),
-        cmocka_unit_test(test_writes_numbers_that_read_back_as_the_same_bits),
-        cmocka_unit_test(test_writes_short_numbers_shortly),
-        cmocka_unit_test(test_no_locale_changes_reading_or_writing),
+        cmocka_unit_test(reads_random_doubles_as_strtod_does),
+        cmocka_unit_test(reads_random_digits_as_strtod_does),
+        cmocka_unit_test(reads_middles_of_doubles_as_strtod_does),
+        cmocka_unit_test(reads_hard_cases_as_strtod_does),
+        cmocka_unit_test(reads_very_long_numbers_as_strtod_does),
+        cmocka_unit_test(reads_what_is_not_finite),
+        cmocka_unit_test(stops_at_the_end_it_was_given),
+        cmocka_unit_test(writes_numbers_that_read_back_as_the_same_bits),
+        cmocka_unit_test(writes_short_numbers_shortly),
+        cmocka_unit_test(no_locale_changes_reading_or_writing),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

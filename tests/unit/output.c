@@ -1,57 +1,15 @@
-#include "check.h"
+#include "files.h"
 
 #include "output.h"
 
 #include <fcntl.h>
-#include <stdlib.h>
 #include <sys/stat.h>
-#include <unistd.h>
-
-/* Every test works in a folder of its own. */
-static char folder[64];
-
-static const char *path_of(const char *name)
-{
-    static char path[sizeof folder + 64];
-    snprintf(path, sizeof path, "%s/%.60s", folder, name);
-    return path;
-}
-
-static int enter_folder(void **state)
-{
-    snprintf(folder, sizeof folder, "/tmp/pia-output-XXXXXX");
-    if (mkdtemp(folder) == NULL) return -1;
-    return pia_context_create(NULL, (pia_context **)state) != PIA_OK;
-}
-
-static int leave_folder(void **state)
-{
-    char command[256];
-    snprintf(command, sizeof command, "chmod -R u+rwx %s; rm -rf %s", folder, folder);
-    pia_context_destroy(*state);
-    return system(command);
-}
-
-static int file_count(void)
-{
-    char command[256];
-    snprintf(command, sizeof command, "ls -A %s | wc -l", folder);
-    FILE *pipe = popen(command, "r");
-    int count = -1;
-    assert_int_equal(fscanf(pipe, "%d", &count), 1);
-    pclose(pipe);
-    return count;
-}
 
 static void assert_holds(const char *path, const char *expected)
 {
-    char text[256] = "";
-    FILE *file = fopen(path, "rb");
-    assert_non_null(file);
-    size_t size = fread(text, 1, sizeof text - 1, file);
-    fclose(file);
-    text[size] = '\0';
+    char *text = read_text(path);
     assert_string_equal(text, expected);
+    free(text);
 }
 
 static void write_file(pia_context *context, const char *path, const char *text)
@@ -62,7 +20,7 @@ static void write_file(pia_context *context, const char *path, const char *text)
     assert_ok(context, pia_output_commit(output));
 }
 
-static void test_a_new_file_holds_what_was_written(void **state)
+static void a_new_file_holds_what_was_written(void **state)
 {
     pia_output *output;
     assert_ok(*state, pia_output_open(*state, path_of("new"), &output));
@@ -75,7 +33,7 @@ static void test_a_new_file_holds_what_was_written(void **state)
     assert_int_equal(file_count(), 1);
 }
 
-static void test_an_abandoned_output_leaves_the_old_file(void **state)
+static void an_abandoned_output_leaves_the_old_file(void **state)
 {
     write_file(*state, path_of("file"), "old");
     pia_output *output;
@@ -87,7 +45,7 @@ static void test_an_abandoned_output_leaves_the_old_file(void **state)
     pia_output_abandon(NULL);
 }
 
-static void test_a_replaced_file_keeps_its_permissions(void **state)
+static void a_replaced_file_keeps_its_permissions(void **state)
 {
     struct stat about;
     write_file(*state, path_of("file"), "old");
@@ -98,7 +56,7 @@ static void test_a_replaced_file_keeps_its_permissions(void **state)
     assert_holds(path_of("file"), "new");
 }
 
-static void test_a_symbolic_link_stays_a_link(void **state)
+static void a_symbolic_link_stays_a_link(void **state)
 {
     struct stat about;
     write_file(*state, path_of("file"), "old");
@@ -109,7 +67,7 @@ static void test_a_symbolic_link_stays_a_link(void **state)
     assert_holds(path_of("file"), "new");
 }
 
-static void assert_refused(pia_context *context, const char *path, const char *why)
+static void assert_target_refused(pia_context *context, const char *path, const char *why)
 {
     pia_output *output = NULL;
     assert_status(context, pia_output_open(context, path, &output), PIA_E_FILE);
@@ -117,20 +75,20 @@ static void assert_refused(pia_context *context, const char *path, const char *w
     assert_non_null(strstr(pia_message(context), why));
 }
 
-static void test_targets_that_cannot_be_files_are_refused(void **state)
+static void targets_that_cannot_be_files_are_refused(void **state)
 {
-    assert_refused(*state, folder, "is a directory");
-    assert_refused(*state, path_of("missing/file"), "check that its folder exists");
-    assert_refused(*state, "", "is empty");
+    assert_target_refused(*state, test_folder, "is a directory");
+    assert_target_refused(*state, path_of("missing/file"), "check that its folder exists");
+    assert_target_refused(*state, "", "is empty");
     assert_int_equal(symlink("nowhere", path_of("link")), 0);
-    assert_refused(*state, path_of("link"), "is a symbolic link to nothing");
+    assert_target_refused(*state, path_of("link"), "is a symbolic link to nothing");
     if (geteuid() == 0) return; /* the superuser may write everything */
     write_file(*state, path_of("file"), "old");
     assert_int_equal(chmod(path_of("file"), 0440), 0);
-    assert_refused(*state, path_of("file"), "must not be written");
+    assert_target_refused(*state, path_of("file"), "must not be written");
 }
 
-static void test_a_full_device_is_told(void **state)
+static void a_full_device_is_told(void **state)
 {
     if (access("/dev/full", W_OK) != 0) skip();
     pia_output *output;
@@ -140,7 +98,7 @@ static void test_a_full_device_is_told(void **state)
     assert_non_null(strstr(pia_message(*state), "/dev/full: could not be written: No space left on device"));
 }
 
-static void test_a_device_is_written_in_place(void **state)
+static void a_device_is_written_in_place(void **state)
 {
     struct stat about;
     write_file(*state, "/dev/null", "text");
@@ -148,7 +106,7 @@ static void test_a_device_is_written_in_place(void **state)
     assert_true(S_ISCHR(about.st_mode));
 }
 
-static void test_large_outputs_pass_the_buffer(void **state)
+static void large_outputs_pass_the_buffer(void **state)
 {
     enum { SIZE = 300000 };
     struct stat about;
@@ -163,7 +121,7 @@ static void test_large_outputs_pass_the_buffer(void **state)
     free(block);
 }
 
-static void test_standard_output_is_written_whole(void **state)
+static void standard_output_is_written_whole(void **state)
 {
     fflush(stdout);
     int saved = dup(STDOUT_FILENO), file = open(path_of("standard"), O_WRONLY | O_CREAT, 0666);
@@ -183,7 +141,7 @@ static void test_standard_output_is_written_whole(void **state)
     assert_int_equal(about.st_size, 200000);
 }
 
-static void test_text_too_long_for_one_call_is_an_error_not_a_cut(void **state)
+static void text_too_long_for_one_call_is_an_error_not_a_cut(void **state)
 {
     char text[2000];
     memset(text, 'x', sizeof text - 1);
@@ -195,21 +153,19 @@ static void test_text_too_long_for_one_call_is_an_error_not_a_cut(void **state)
     assert_int_equal(file_count(), 0);
 }
 
-#define IN_FOLDER(test) cmocka_unit_test_setup_teardown(test, enter_folder, leave_folder)
-
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        IN_FOLDER(test_a_new_file_holds_what_was_written),
-        IN_FOLDER(test_an_abandoned_output_leaves_the_old_file),
-        IN_FOLDER(test_a_replaced_file_keeps_its_permissions),
-        IN_FOLDER(test_a_symbolic_link_stays_a_link),
-        IN_FOLDER(test_targets_that_cannot_be_files_are_refused),
-        IN_FOLDER(test_a_full_device_is_told),
-        IN_FOLDER(test_a_device_is_written_in_place),
-        IN_FOLDER(test_large_outputs_pass_the_buffer),
-        IN_FOLDER(test_standard_output_is_written_whole),
-        IN_FOLDER(test_text_too_long_for_one_call_is_an_error_not_a_cut),
+        IN_FOLDER(a_new_file_holds_what_was_written),
+        IN_FOLDER(an_abandoned_output_leaves_the_old_file),
+        IN_FOLDER(a_replaced_file_keeps_its_permissions),
+        IN_FOLDER(a_symbolic_link_stays_a_link),
+        IN_FOLDER(targets_that_cannot_be_files_are_refused),
+        IN_FOLDER(a_full_device_is_told),
+        IN_FOLDER(a_device_is_written_in_place),
+        IN_FOLDER(large_outputs_pass_the_buffer),
+        IN_FOLDER(standard_output_is_written_whole),
+        IN_FOLDER(text_too_long_for_one_call_is_an_error_not_a_cut),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
