@@ -169,7 +169,7 @@ typedef struct pia_report {
     char method[24];                /* what ran, also when "auto" chose it */
     char parametrization[24], placement[24], limiter[24];
     int degree[2];
-    pia_index control[2];           /* control points a direction; control[1] is 1 for a curve */
+    pia_index control[2];           /* control points a direction, of a closed one without the repeated ones; control[1] is 1 for a curve */
     pia_index control_count, point_count, iterations;
     pia_stop stop;
     int reached;                    /* 1 or 0; PIA_AUTO: no tolerance was asked */

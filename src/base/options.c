@@ -16,3 +16,12 @@ pia_status pia_options_read(pia_context *context, const char *name, void *out, s
     memcpy(out, &size, sizeof size);
     return PIA_OK;
 }
+
+void pia_options_write(void *out, const void *full, size_t size)
+{
+    size_t given;
+    memcpy(&given, out, sizeof given);
+    if (given < sizeof given || given > size) given = size;
+    memcpy(out, full, given);
+    memcpy(out, &given, sizeof given);
+}

@@ -10,4 +10,8 @@
  * message. context may be NULL. */
 pia_status pia_options_read(pia_context *context, const char *name, void *out, size_t size, const void *in);
 
+/* The way back: copies `full` of `size` bytes into a struct of the caller, as far as its struct_size says it reaches; a struct_size of
+ * 0 stands for the size known here. */
+void pia_options_write(void *out, const void *full, size_t size);
+
 #endif

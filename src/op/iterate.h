@@ -24,6 +24,7 @@ typedef struct pia_iterate {
     double adjust_max;        /* largest |D_i| of the step just computed */
     double relative_gradient; /* of P; NAN when the method has none */
     double damping;           /* the loop's factor on the steps of interpolating methods: 1, halved where steps grow */
+    double constraint_error;  /* largest violation of P, units of the points; NAN without constraints */
     int stalled;              /* set by a method or limiter: no step helps any more */
     int finished;             /* set by a finite method: P is the limit, this step is none */
     int square;               /* 1: interpolation, each unknown owns a row; 0: least squares */

@@ -120,8 +120,29 @@ static pia_status solve_bordered(pia_context *context, const equations *e, doubl
     return status;
 }
 
-/* A factored direction, solved for many right-hand sides: whole rows of a grid at once. */
-static pia_status solve_equations(pia_context *context, const equations *e, double *r, pia_index lines, int width)
+/* Rows of the collocation matrix as the streaming solver asks for them. */
+typedef struct stream {
+    const pia_collocation *c;
+    const unsigned char *frozen;
+} stream;
+
+static void make_rows(void *work, pia_index begin, pia_index end, pia_index *first, double *a)
+{
+    const stream *s = work;
+    const pia_collocation *c = s->c;
+    int width = c->degree + 1;
+    pia_index span = pia_collocation_span(c, begin);
+    for (pia_index row = begin; row < end; row++) {
+        while (row >= c->begin[span - c->degree + 1]) span++;
+        double *entry = a + (row - begin) * width;
+        pia_collocation_entries(c, row, span, &first[row - begin], entry);
+        if (s->frozen != NULL && s->frozen[row])
+            for (int k = 0; k < width; k++) entry[k] = first[row - begin] + k == row;
+    }
+}
+
+/* Many right-hand sides of a grid's lines share one factorisation. */
+static pia_status solve_lines(pia_context *context, const equations *e, double *r, pia_index lines, int width)
 {
     pia_status status = PIA_OK;
     if (e->wraps) {
@@ -142,10 +163,13 @@ static pia_status solve_equations(pia_context *context, const equations *e, doub
 static pia_status solve_line(pia_context *context, const pia_collocation *c, const unsigned char *frozen, double *r, pia_index lines,
                              int width)
 {
+    stream rows = {c, frozen};
+    if (lines == 1 && c->map != PIA_MAP_CYCLIC)
+        return pia_band_lu_stream(context, make_rows, &rows, c->unknowns, c->degree + 1, r, width);
     equations e;
     pia_status status = equations_open(context, c, frozen, &e);
     if (status != PIA_OK) return status;
-    status = solve_equations(context, &e, r, lines, width);
+    status = solve_lines(context, &e, r, lines, width);
     equations_clear(context, &e);
     return status;
 }

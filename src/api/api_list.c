@@ -1,0 +1,69 @@
+/* The registries of the build, seen from outside. */
+#include "io.h"
+#include "kernel.h"
+#include "limit.h"
+#include "method.h"
+#include "param.h"
+#include "place.h"
+
+#include <string.h>
+
+static int fill(pia_entry *out, const char *name, const char *title, const char *reference, const char *detail)
+{
+    *out = (pia_entry){name, title, reference, detail};
+    return 1;
+}
+
+static int list_methods(pia_index index, pia_entry *out)
+{
+    if (index == 0)
+        return fill(out, "auto", "the library takes whatever reaches the limit soonest and says what it took", NULL,
+                    "interpolation, least squares, constraints, tolerance");
+    const pia_method *m = pia_method_list(index - 1);
+    return m != NULL && fill(out, m->name, m->title, m->reference, m->detail);
+}
+
+static int list_limiters(pia_index index, pia_entry *out)
+{
+    if (index == 0) return fill(out, "none", "steps are taken whole", NULL, NULL);
+    const pia_limiter *l = pia_limit_list(index - 1);
+    return l != NULL && fill(out, l->name, l->title, l->reference, l->detail);
+}
+
+int pia_list(const char *registry, pia_index index, pia_entry *out)
+{
+    if (registry == NULL || out == NULL || index < 0) return 0;
+    if (strcmp(registry, "method") == 0) return list_methods(index, out);
+    if (strcmp(registry, "limiter") == 0) return list_limiters(index, out);
+    if (strcmp(registry, "parametrization") == 0) {
+        const pia_parametrization *p = pia_param_list(index);
+        return p != NULL && fill(out, p->name, p->title, p->reference, p->detail);
+    }
+    if (strcmp(registry, "placement") == 0) {
+        const pia_placement *p = pia_place_list(index);
+        return p != NULL && fill(out, p->name, p->title, p->reference, p->detail);
+    }
+    if (strcmp(registry, "format") == 0) {
+        const pia_format *f = pia_format_list(index);
+        return f != NULL && fill(out, f->name, f->title, f->reference, f->detail);
+    }
+    if (strcmp(registry, "backend") == 0) {
+        const pia_kernel *k = pia_kernel_list(index);
+        return k != NULL && fill(out, k->name, k->title, NULL, NULL);
+    }
+    return 0;
+}
+
+int pia_list_parameters(const char *name, pia_index index, pia_parameter *out)
+{
+    const pia_method *method = name != NULL ? pia_method_find(name) : NULL;
+    const pia_limiter *limiter = name != NULL && method == NULL ? pia_limit_find(name) : NULL;
+    const pia_parameter *parameters = method != NULL ? method->parameters : limiter != NULL ? limiter->parameters : NULL;
+    if (parameters == NULL || out == NULL || index < 0) return 0;
+    for (pia_index i = 0; parameters[i].name != NULL; i++)
+        if (i == index) {
+            *out = parameters[i];
+            return 1;
+        }
+    return 0;
+}

@@ -1,0 +1,83 @@
+/* The fit: wires the stages from points to model and owns what they share. One file a stage:
+ *   fit_data.c        checks, bounding box, repeated points          fit_start.c    the initial control points
+ *   fit_choice.c      which method, parametrization, placement       fit_open.c     the pipeline itself; open and close
+ *   fit_parameters.c  parameters of the rows                         fit_result.c   report, residuals, model
+ *   fit_knots.c       knots and operators                            fit_edit.c     edits of a running fit
+ *   fit_foot.c        parameters moved to foot points                fit_call.c     the one call */
+#ifndef PIA_FIT_FIT_H
+#define PIA_FIT_FIT_H
+
+#include "normal.h"
+#include "notes.h"
+#include "param.h"
+#include "place.h"
+#include "solve.h"
+#include "summary.h"
+
+struct pia_fit {
+    pia_context *context;
+    pia_fit_options options; /* texts and arrays of it are valid during open only */
+    int borrowed;            /* points are the caller's until the fit is closed */
+
+    pia_kind kind;
+    int directions;
+    int dim; /* components that are fitted: one less than the data's for function graphs */
+    int function_graph;
+    const double *points; /* [count[0] x count[1] x dim] rows used */
+    double *own_points;   /* the same when the fit owns them; NULL when borrowed */
+    pia_index count[2], rows;
+    pia_index given;    /* rows of the data as given */
+    pia_index *row;     /* [rows] data row of each row used; NULL: the same */
+    pia_index *dropped; /* [dropped_count] data rows not used */
+    pia_index dropped_count;
+    double *weights; /* [rows]; NULL: 1 */
+    int has_holes;
+    double origin[PIA_MAX_DIM], low[PIA_MAX_DIM], high[PIA_MAX_DIM];
+    double extent; /* of what is fitted */
+
+    int square; /* interpolation */
+    int degree[2], closed[2];
+    const pia_parametrization *parametrization; /* NULL: given */
+    const pia_placement *placement;             /* NULL: given */
+    double *parameter[2];                       /* [count] a direction; scattered: u,v pairs in [0]; owned unless borrowed_parameters */
+    int borrowed_parameters;
+    double *knots[2]; /* [full + degree + 1] */
+    pia_index full[2];
+    pia_map map[2];
+    pia_index offset[2];
+
+    pia_collocation line[2];
+    pia_op *op;
+    pia_iterate iterate;
+    pia_solve solve;
+    pia_values method_values, limiter_values;
+    pia_notes notes;
+    double *all_parameters; /* of a grid, u then v, once asked for; NULL before */
+    double seconds;         /* spent in opening */
+};
+
+pia_status pia_fit_take_data(pia_fit *fit, const pia_data *data);
+pia_status pia_fit_choose(pia_fit *fit);
+/* The names of what was chosen, into a report. */
+void pia_fit_names(const pia_fit *fit, pia_report *report);
+pia_status pia_fit_parametrize(pia_fit *fit, const pia_data *data);
+pia_status pia_fit_place(pia_fit *fit);
+pia_status pia_fit_operate(pia_fit *fit);
+pia_status pia_fit_initial(pia_fit *fit);
+/* Moves the parameters of a curve to the closest points of the iterate nearby, never past the middle to a neighbour. */
+pia_status pia_fit_project(pia_iterate *iterate);
+
+/* Opens without a copy of the data where the method allows: data outlives the fit. */
+pia_status pia_fit_borrow(pia_context *context, const pia_data *data, const pia_fit_options *options, pia_fit **out);
+
+/* Adds a note; memory that is too short for a note is not an error. */
+void pia_fit_note_add(pia_fit *fit, const char *format, ...) __attribute__((format(printf, 2, 3)));
+
+/* Makes points and the row numbers the fit's own, so that rows can be dropped or turned. */
+pia_status pia_fit_own_rows(pia_fit *fit);
+/* Drops rows of a curve or scattered set (keep [rows] 0 or 1), recording them; the points become the fit's own. */
+pia_status pia_fit_drop_rows(pia_fit *fit, const unsigned char *keep);
+/* The same for whole lines of a grid in one direction. */
+pia_status pia_fit_drop_lines(pia_fit *fit, int direction, const unsigned char *keep);
+
+#endif

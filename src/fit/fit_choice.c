@@ -1,0 +1,174 @@
+/* What the options leave open: method, parametrization, placement, limiter. Choices made by the library are noted. */
+#include "fit.h"
+
+#include <math.h>
+#include <string.h>
+
+static void copy_name(char *to, size_t size, const char *name)
+{
+    size_t length = name != NULL ? strlen(name) : 0;
+    if (length >= size) length = size - 1;
+    if (length > 0) memcpy(to, name, length);
+    to[length] = '\0';
+}
+
+/* Names of a registry, for messages. */
+static const char *names_of(const char *registry, char *text, size_t size)
+{
+    pia_entry entry;
+    text[0] = '\0';
+    for (pia_index i = 0; pia_list(registry, i, &entry); i++) {
+        size_t used = strlen(text);
+        if (used + strlen(entry.name) + 3 > size) break;
+        if (i > 0) strcat(text, ", ");
+        strcat(text, entry.name);
+    }
+    return text;
+}
+
+static pia_status unknown(pia_fit *fit, const char *registry, const char *name)
+{
+    char text[400];
+    return pia_fail(fit->context, PIA_E_ARGUMENT, "there is no %s \"%s\"; there are %s", registry, name,
+                    names_of(registry, text, sizeof text));
+}
+
+/* Fewer control points than data, constraints, holes or given weights make it least squares; else the data are interpolated. */
+static int wants_least_squares(const pia_fit *fit)
+{
+    const pia_fit_options *o = &fit->options;
+    int fewer = 0;
+    for (int d = 0; d < fit->directions; d++) {
+        pia_index count = fit->kind == PIA_SCATTERED ? -1 : fit->count[d];
+        if (o->control[d] != PIA_AUTO && o->control[d] != count) fewer = 1;
+        if (o->knots[d] != NULL && o->knot_count[d] != count + o->degree[d] + 1) fewer = 1;
+    }
+    return fewer || fit->kind == PIA_SCATTERED || fit->has_holes || fit->weights != NULL || o->interpolate_count > 0 ||
+           o->constraint_count > 0;
+}
+
+static const char *automatic(pia_fit *fit)
+{
+    const pia_fit_options *o = &fit->options;
+    int limited = o->limiter != NULL && strcmp(o->limiter, "none") != 0;
+    int constrained = o->interpolate_count + o->constraint_count > 0;
+    if (!wants_least_squares(fit)) {
+        pia_fit_note_add(fit,
+                         limited ? "method: pia, because the limiter %s shortens its steps"
+                                 : "method: direct, because nothing asked for fewer control points than data%.0s",
+                         limited ? o->limiter : "");
+        return limited ? "pia" : "direct";
+    }
+    if (constrained) {
+        pia_fit_note_add(fit,
+                         limited ? "method: clspia, because the limiter %s shortens its steps and points are to be met exactly"
+                                 : "method: direct, constrained least squares%.0s",
+                         limited ? o->limiter : "");
+        return limited ? "clspia" : "direct";
+    }
+    if (limited) {
+        pia_fit_note_add(fit, "method: lspia, because the limiter %s shortens its steps", o->limiter);
+        return "lspia";
+    }
+    pia_fit_note_add(fit, fit->has_holes || fit->kind == PIA_SCATTERED ? "method: direct, sparse normal equations"
+                                                                       : "method: direct, banded normal equations");
+    return "direct";
+}
+
+static pia_status choose_method(pia_fit *fit)
+{
+    const char *name = fit->options.method;
+    if (name == NULL || strcmp(name, "auto") == 0) name = automatic(fit);
+    fit->solve.method = pia_method_find(name);
+    if (fit->solve.method == NULL) return unknown(fit, "method", name);
+    unsigned needs = fit->solve.method->needs;
+    fit->square = (needs & PIA_NEEDS_SQUARE) != 0 || ((needs & PIA_IS_FINITE) != 0 && !wants_least_squares(fit));
+    if ((needs & PIA_NEEDS_SQUARE) != 0 && fit->kind == PIA_SCATTERED)
+        return pia_fail(fit->context, PIA_E_ARGUMENT,
+                        "method %s interpolates curves and grids, not scattered points; use direct, lspia or cg", name);
+    if (fit->square && fit->has_holes)
+        return pia_fail(fit->context, PIA_E_ARGUMENT,
+                        "method %s interpolates and cannot leave out points without a value; use direct, lspia or cg", name);
+    if (fit->options.interpolate_count + fit->options.constraint_count > 0 && (needs & PIA_KNOWS_CONSTRAINTS) == 0)
+        return pia_fail(fit->context, PIA_E_ARGUMENT, "method %s knows no constraints; use clspia, clspia-pcg or direct", name);
+    if (fit->square && fit->weights != NULL) pia_fit_note_add(fit, "weights do not change an interpolation and were not used");
+    return pia_values_read(fit->context, name, fit->solve.method->parameters, fit->options.method_options,
+                           fit->options.method_option_count, &fit->method_values);
+}
+
+static pia_status choose_limiter(pia_fit *fit)
+{
+    const char *name = fit->options.limiter;
+    if (name == NULL || strcmp(name, "none") == 0) {
+        if (fit->options.limiter_option_count == 0) return PIA_OK;
+        return pia_fail(fit->context, PIA_E_ARGUMENT, "shape options were given, but no shape to keep; name one");
+    }
+    fit->solve.limiter = pia_limit_find(name);
+    if (fit->solve.limiter == NULL) return unknown(fit, "limiter", name);
+    if ((fit->solve.method->needs & PIA_IS_LIMITABLE) == 0)
+        return pia_fail(fit->context, PIA_E_ARGUMENT,
+                        "limiter %s cannot shorten the steps of method %s; use pia, wpia, lspia or clspia", name,
+                        fit->solve.method->name);
+    return pia_values_read(fit->context, name, fit->solve.limiter->parameters, fit->options.limiter_options,
+                           fit->options.limiter_option_count, &fit->limiter_values);
+}
+
+/* The 2004 format is the default of `pia` where it exists: cubic, open, nothing given. */
+static int is_paper_format(const pia_fit *fit)
+{
+    if (strcmp(fit->solve.method->name, "pia") != 0 || fit->options.start != NULL || fit->function_graph) return 0;
+    for (int d = 0; d < fit->directions; d++)
+        if (fit->degree[d] != 3 || fit->closed[d] || fit->options.knots[d] != NULL || fit->options.control[d] != PIA_AUTO) return 0;
+    return 1;
+}
+
+static pia_status choose_placement(pia_fit *fit)
+{
+    const char *name = fit->options.placement;
+    if (fit->options.start != NULL || fit->options.knots[0] != NULL) {
+        if (name != NULL && strcmp(name, "auto") != 0)
+            return pia_fail(fit->context, PIA_E_ARGUMENT, "knots are given, so they cannot also be placed by \"%s\"", name);
+        return PIA_OK;
+    }
+    if (name == NULL || strcmp(name, "auto") == 0)
+        name = is_paper_format(fit) ? "pia2004" : fit->square ? "average" : fit->kind == PIA_SCATTERED ? "uniform" : "lsq";
+    fit->placement = pia_place_find(name);
+    if (fit->placement == NULL) return unknown(fit, "placement", name);
+    if (strcmp(name, "pia2004") != 0) return PIA_OK;
+    for (int d = 0; d < fit->directions; d++)
+        if (fit->degree[d] != 3 || fit->closed[d])
+            return pia_fail(fit->context, PIA_E_ARGUMENT, "knots pia2004 are cubic and open; use --knots average with degree %d%s",
+                            fit->degree[d], fit->closed[d] ? " and closed directions" : "");
+    if (!fit->square)
+        return pia_fail(fit->context, PIA_E_ARGUMENT, "knots pia2004 interpolate; method %s does not", fit->solve.method->name);
+    return PIA_OK;
+}
+
+pia_status pia_fit_choose(pia_fit *fit)
+{
+    for (int d = 0; d < fit->directions; d++) {
+        fit->degree[d] = fit->options.degree[d];
+        fit->closed[d] = fit->options.closed[d] != 0;
+        if (fit->degree[d] < 1 || fit->degree[d] > PIA_MAX_DEGREE)
+            return pia_fail(fit->context, PIA_E_ARGUMENT, "degree %d is not between 1 and %d", fit->degree[d], PIA_MAX_DEGREE);
+        if (fit->closed[d] && fit->function_graph)
+            return pia_fail(fit->context, PIA_E_ARGUMENT,
+                            "a function graph cannot be closed; fit the values with given parameters instead");
+    }
+    pia_status status = choose_method(fit);
+    if (status == PIA_OK) status = choose_limiter(fit);
+    if (status == PIA_OK) status = choose_placement(fit);
+    const char *name = fit->options.parametrization;
+    if (status != PIA_OK || fit->parameter[0] != NULL) return status;
+    fit->parametrization = pia_param_find(name != NULL ? name : "chord");
+    return fit->parametrization != NULL ? PIA_OK : unknown(fit, "parametrization", name);
+}
+
+void pia_fit_names(const pia_fit *fit, pia_report *report)
+{
+    copy_name(report->method, sizeof report->method, fit->solve.method->name);
+    copy_name(report->parametrization, sizeof report->parametrization,
+              fit->parametrization != NULL ? fit->parametrization->name : "given");
+    copy_name(report->placement, sizeof report->placement, fit->placement != NULL ? fit->placement->name : "given");
+    copy_name(report->limiter, sizeof report->limiter, fit->solve.limiter != NULL ? fit->solve.limiter->name : "none");
+}

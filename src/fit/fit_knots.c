@@ -1,0 +1,250 @@
+/* Knots and operators: placed, given, or those of the start model. */
+#include "fit.h"
+
+#include "knots.h"
+#include "model.h"
+
+#include <math.h>
+#include <string.h>
+
+static pia_status take_knots(pia_fit *fit, int d, pia_index full)
+{
+    fit->full[d] = full;
+    fit->knots[d] = pia_take(fit->context, full + fit->degree[d] + 1, sizeof(double));
+    return fit->knots[d] != NULL ? PIA_OK : PIA_E_MEMORY;
+}
+
+static pia_index wanted_control(const pia_fit *fit, int d)
+{
+    pia_index asked = fit->options.control[d], rows = fit->kind == PIA_SCATTERED ? fit->rows : fit->count[d];
+    if (asked != PIA_AUTO) return asked;
+    if (fit->square) return rows;
+    pia_index tenth = rows / 10, least = fit->degree[d] + 1;
+    return tenth > least ? tenth : least < rows ? least : rows;
+}
+
+static pia_status check_control(pia_fit *fit, int d, pia_index control)
+{
+    pia_context *context = fit->context;
+    pia_index least = fit->closed[d] ? 3 : fit->degree[d] + 1, rows = fit->count[d];
+    if (fit->closed[d] && least < fit->degree[d]) least = fit->degree[d];
+    if (fit->square && rows < least)
+        return pia_fail(context, PIA_E_DATA,
+                        "%lld distinct points are too few for degree %d; lower the degree to %lld or give more points", (long long)rows,
+                        fit->degree[d], (long long)(rows > 1 ? rows - 1 : 1));
+    if (fit->square && control != rows)
+        return pia_fail(context, PIA_E_ARGUMENT,
+                        "method %s interpolates: it takes %lld control points, not %lld; use lspia or direct for fewer",
+                        fit->solve.method->name, (long long)rows, (long long)control);
+    if (control < least)
+        return pia_fail(context, PIA_E_ARGUMENT, "%lld control points are too few for degree %d; ask for at least %lld",
+                        (long long)control, fit->degree[d], (long long)least);
+    if (fit->kind != PIA_SCATTERED && control > rows)
+        return pia_fail(context, PIA_E_ARGUMENT, "%lld control points are more than the %lld distinct points; ask for fewer",
+                        (long long)control, (long long)rows);
+    return PIA_OK;
+}
+
+static pia_status place_direction(pia_fit *fit, int d)
+{
+    pia_index control = wanted_control(fit, d);
+    pia_status status = check_control(fit, d, control);
+    if (status != PIA_OK) return status;
+    int doubled = strcmp(fit->placement->name, "pia2004") == 0;
+    if (doubled) control += 2;
+    fit->map[d] = doubled ? PIA_MAP_DOUBLED : fit->closed[d] ? PIA_MAP_CYCLIC : PIA_MAP_IDENTITY;
+    status = take_knots(fit, d, control + (fit->closed[d] ? fit->degree[d] : 0));
+    if (status != PIA_OK) return status;
+    pia_place_problem problem = {fit->degree[d], fit->closed[d], control, fit->parameter[d], fit->count[d]};
+    return fit->placement->place(fit->context, &problem, fit->knots[d]);
+}
+
+static pia_status given_direction(pia_fit *fit, int d, const double *knots, pia_index count)
+{
+    pia_index full = count - fit->degree[d] - 1, n = fit->closed[d] ? full - fit->degree[d] : full;
+    if (knots == NULL || full <= fit->degree[d])
+        return pia_fail(fit->context, PIA_E_SHAPE,
+                        "%lld knots are too few for degree %d; a clamped vector has control points + degree + 1", (long long)count,
+                        fit->degree[d]);
+    if (fit->options.control[d] != PIA_AUTO && fit->options.control[d] != n)
+        return pia_fail(fit->context, PIA_E_SHAPE, "%lld knots make %lld control points of degree %d, but %lld were asked",
+                        (long long)count, (long long)n, fit->degree[d], (long long)fit->options.control[d]);
+    fit->map[d] = fit->closed[d] ? PIA_MAP_CYCLIC : PIA_MAP_IDENTITY;
+    pia_status status = check_control(fit, d, n);
+    if (status == PIA_OK && !fit->closed[d]) status = pia_knots_check(fit->context, fit->degree[d], knots, count, full);
+    if (status == PIA_OK) status = take_knots(fit, d, full);
+    if (status == PIA_OK) memcpy(fit->knots[d], knots, (size_t)count * sizeof(double));
+    return status;
+}
+
+static pia_status start_knots(pia_fit *fit)
+{
+    const pia_model *start = fit->options.start;
+    double *knots[2] = {NULL, NULL};
+    if (start->directions != fit->directions || start->dim != fit->dim + fit->function_graph || start->rational)
+        return pia_fail(fit->context, PIA_E_SHAPE,
+                        "the start model is a %s%s of dimension %d; the data need a polynomial %s of dimension %d",
+                        start->rational ? "rational " : "", start->directions == 1 ? "curve" : "surface", start->dim,
+                        fit->directions == 1 ? "curve" : "surface", fit->dim + fit->function_graph);
+    for (int d = 0; d < fit->directions; d++) {
+        fit->degree[d] = start->degree[d];
+        fit->closed[d] = start->periodic[d];
+        pia_index n = start->control[d] - (start->periodic[d] ? start->degree[d] : 0);
+        fit->map[d] = fit->closed[d] ? PIA_MAP_CYCLIC : PIA_MAP_IDENTITY;
+        if (fit->square && n == fit->count[d] + 2 && fit->degree[d] == 3) fit->map[d] = PIA_MAP_DOUBLED;
+        pia_status status = fit->map[d] == PIA_MAP_DOUBLED ? PIA_OK : check_control(fit, d, n);
+        if (status == PIA_OK) status = take_knots(fit, d, start->control[d]);
+        if (status != PIA_OK) return status;
+        knots[d] = fit->knots[d];
+    }
+    double *points = pia_take(fit->context, start->control[0] * start->control[1] * start->dim, sizeof(double));
+    if (points == NULL) return PIA_E_MEMORY;
+    pia_status status = pia_model_to_cyclic(fit->context, start, knots, points);
+    pia_give(fit->context, points);
+    return status;
+}
+
+/* Parameters computed for [0, 1] are carried over to the domain of knots that came from elsewhere. */
+static pia_status fit_into_domain(pia_fit *fit, int d)
+{
+    double low = fit->knots[d][fit->degree[d]], high = fit->knots[d][fit->full[d]];
+    pia_index count = fit->kind == PIA_SCATTERED ? fit->rows : fit->count[d], stride = fit->kind == PIA_SCATTERED ? 2 : 1;
+    double *t = fit->kind == PIA_SCATTERED ? fit->parameter[0] + d : fit->parameter[d];
+    if (fit->parametrization != NULL && !fit->closed[d] && !(low == 0 && high == 1) && fit->placement == NULL)
+        for (pia_index i = 0; i < count; i++) t[i * stride] = i == count - 1 ? high : low + (high - low) * t[i * stride];
+    for (pia_index i = 0; i < count && !fit->closed[d]; i++)
+        if (!(t[i * stride] >= low && t[i * stride] <= high))
+            return pia_fail(fit->context, PIA_E_DATA, "parameter %.17g of row %lld lies outside the knots' domain [%.17g, %.17g]",
+                            t[i * stride], (long long)i, low, high);
+    return PIA_OK;
+}
+
+static void rotate(void *base, pia_index count, size_t size, pia_index by, void *spare)
+{
+    char *bytes = base;
+    memcpy(spare, bytes, (size_t)by * size);
+    memmove(bytes, bytes + (size_t)by * size, (size_t)(count - by) * size);
+    memcpy(bytes + (size_t)(count - by) * size, spare, (size_t)by * size);
+}
+
+/* Closed: the domain of the knots starts near 0, not at it. Rows before it come one period later, at the end. */
+static pia_status turn(pia_fit *fit, int d)
+{
+    double *t = fit->parameter[d], low = fit->knots[d][fit->degree[d]];
+    pia_index lines = fit->count[d], by = 0, late = 0;
+    while (by < lines && t[by] < low) by++;
+    while (late < lines && t[lines - 1 - late] >= low + 1) late++;
+    if (by == lines || late == lines) return pia_fail(fit->context, PIA_E_DATA, "no parameter lies in the period of the closed knots");
+    for (pia_index i = 0; i < by; i++) t[i] += 1;
+    for (pia_index i = lines - late; i < lines; i++) t[i] -= 1;
+    pia_index shift = by > 0 ? by : (lines - late) % lines, other = fit->rows / lines;
+    fit->offset[d] = shift;
+    if (shift == 0) return PIA_OK;
+    size_t point = (size_t)fit->dim * sizeof(double);
+    pia_index block = d == 0 ? other : 1, blocks = d == 0 ? 1 : other;
+    pia_status status = pia_fit_own_rows(fit);
+    if (status != PIA_OK) return status;
+    void *spare = pia_take(fit->context, fit->rows, point);
+    if (spare == NULL) return PIA_E_MEMORY;
+    rotate(t, lines, sizeof *t, shift, spare);
+    for (pia_index b = 0; b < blocks; b++) {
+        pia_index at = b * lines;
+        rotate(fit->own_points + at * fit->dim, lines * block, point, shift * block, spare);
+        rotate(fit->row + at, lines * block, sizeof *fit->row, shift * block, spare);
+        if (fit->weights != NULL) rotate(fit->weights + at, lines * block, sizeof *fit->weights, shift * block, spare);
+    }
+    pia_give(fit->context, spare);
+    return PIA_OK;
+}
+
+/* Scattered parameters are placed by their range alone. */
+static pia_status place_scattered(pia_fit *fit, int d)
+{
+    double range[2] = {INFINITY, -INFINITY};
+    for (pia_index i = 0; i < fit->rows; i++) {
+        range[0] = fmin(range[0], fit->parameter[0][2 * i + d]);
+        range[1] = fmax(range[1], fit->parameter[0][2 * i + d]);
+    }
+    if (!(range[0] < range[1]))
+        return pia_fail(fit->context, PIA_E_DATA, "all %c parameters equal %g; a surface needs a range", 'u' + d, range[0]);
+    if (fit->closed[d] && !(range[0] >= 0 && range[1] <= 1))
+        return pia_fail(fit->context, PIA_E_DATA, "parameters of a closed direction lie in [0, 1]; %c runs from %g to %g", 'u' + d,
+                        range[0], range[1]);
+    if (fit->closed[d]) {
+        range[0] = 0;
+        range[1] = 0.5;
+    }
+    pia_index control = wanted_control(fit, d);
+    if (fit->options.control[d] == PIA_AUTO) {
+        control = (pia_index)sqrt((double)fit->rows / 10);
+        if (control < fit->degree[d] + 1) control = fit->degree[d] + 1;
+    }
+    pia_status status = check_control(fit, d, control);
+    if (status != PIA_OK) return status;
+    fit->map[d] = fit->closed[d] ? PIA_MAP_CYCLIC : PIA_MAP_IDENTITY;
+    status = take_knots(fit, d, control + (fit->closed[d] ? fit->degree[d] : 0));
+    if (status != PIA_OK) return status;
+    pia_place_problem problem = {fit->degree[d], fit->closed[d], control, range, 2};
+    return fit->placement->place(fit->context, &problem, fit->knots[d]);
+}
+
+pia_status pia_fit_place(pia_fit *fit)
+{
+    pia_status status = PIA_OK;
+    if (fit->options.start != NULL) {
+        status = start_knots(fit);
+    } else {
+        for (int d = 0; d < fit->directions && status == PIA_OK; d++) {
+            if (fit->options.knots[0] != NULL)
+                status = given_direction(fit, d, fit->options.knots[d], fit->options.knot_count[d]);
+            else
+                status = fit->kind == PIA_SCATTERED ? place_scattered(fit, d) : place_direction(fit, d);
+        }
+    }
+    for (int d = 0; d < fit->directions && status == PIA_OK; d++) {
+        status = fit_into_domain(fit, d);
+        if (status == PIA_OK && fit->closed[d] && fit->kind != PIA_SCATTERED) status = turn(fit, d);
+    }
+    return status;
+}
+
+/* Interpolation: unknown c is the one whose basis function is centred on row c (place_average: column (row + degree / 2)). */
+static pia_index cyclic_offset(const pia_fit *fit, int d)
+{
+    pia_index n = fit->full[d] - fit->degree[d];
+    return fit->square && fit->closed[d] ? ((-(fit->offset[d] + fit->degree[d] / 2)) % n + n) % n : 0;
+}
+
+static pia_status check_held(pia_fit *fit, int d)
+{
+    const pia_collocation *c = &fit->line[d];
+    double scratch[PIA_MAX_DEGREE + 1];
+    for (pia_index row = 0; fit->square && row < c->rows; row++) {
+        pia_index span = pia_collocation_span(c, row), column = -1;
+        const double *value = pia_collocation_row(c, row, span, scratch);
+        for (int k = 0; k <= c->degree; k++)
+            if (pia_collocation_unknown(c, span - c->degree + k) == row && value[k] > 0) column = row;
+        if (column < 0)
+            return pia_fail(fit->context, PIA_E_DATA,
+                            "knots and parameters do not belong together: control point %lld of direction %c has no hold on its data "
+                            "point (Schoenberg-Whitney); place knots by --knots average",
+                            (long long)row, 'u' + d);
+    }
+    return PIA_OK;
+}
+
+pia_status pia_fit_operate(pia_fit *fit)
+{
+    pia_status status = PIA_OK;
+    int keep_values = (fit->solve.method->needs & PIA_NEEDS_ROWS) != 0 || fit->kind == PIA_GRID;
+    if (fit->kind == PIA_SCATTERED) return pia_fail(fit->context, PIA_E_UNAVAILABLE, "scattered points cannot be fitted yet");
+    for (int d = 0; d < fit->directions && status == PIA_OK; d++) {
+        status = pia_collocation_open(fit->context, fit->degree[d], fit->map[d], cyclic_offset(fit, d), fit->knots[d], fit->full[d],
+                                      fit->parameter[d], fit->count[d], keep_values, &fit->line[d]);
+        if (status == PIA_OK && fit->placement == NULL) status = check_held(fit, d);
+    }
+    if (status != PIA_OK) return status;
+    const double *weights = fit->square ? NULL : fit->weights;
+    if (fit->directions == 1) return pia_op_curve_open(fit->context, &fit->line[0], weights, fit->dim, &fit->op);
+    return pia_op_grid_open(fit->context, &fit->line[0], &fit->line[1], weights, fit->dim, &fit->op);
+}

@@ -1,0 +1,211 @@
+/* The pipeline: data, choices, parameters, knots, operator, start, method. */
+#include "fit.h"
+
+#include "options.h"
+
+#include <math.h>
+#include <string.h>
+
+void pia_data_init(pia_data *data)
+{
+    memset(data, 0, sizeof *data);
+    data->struct_size = sizeof *data;
+    data->kind = PIA_CURVE;
+    data->count[1] = 1;
+}
+
+void pia_constraint_init(pia_constraint *constraint)
+{
+    memset(constraint, 0, sizeof *constraint);
+    constraint->struct_size = sizeof *constraint;
+    constraint->at_point = PIA_AUTO;
+}
+
+void pia_fit_options_init(pia_fit_options *options)
+{
+    memset(options, 0, sizeof *options);
+    options->struct_size = sizeof *options;
+    options->degree[0] = options->degree[1] = 3;
+    options->control[0] = options->control[1] = PIA_AUTO;
+    options->robust_scale = PIA_AUTO;
+    options->max_iterations = PIA_AUTO;
+    options->stop_change = options->stop_gradient = PIA_AUTO;
+}
+
+static pia_status check_options(pia_fit *fit)
+{
+    const pia_fit_options *o = &fit->options;
+    pia_context *context = fit->context;
+    if (!(o->tolerance >= 0) || isinf(o->tolerance))
+        return pia_fail(context, PIA_E_ARGUMENT, "tolerance %g is not a finite number >= 0", o->tolerance);
+    if (!(o->time_limit >= 0)) return pia_fail(context, PIA_E_ARGUMENT, "time limit %g is not a number of seconds >= 0", o->time_limit);
+    if (o->max_iterations < 0 && o->max_iterations != PIA_AUTO)
+        return pia_fail(context, PIA_E_ARGUMENT, "%lld iterations are not a count", (long long)o->max_iterations);
+    if (isnan(o->stop_change) || isnan(o->stop_gradient) || o->trace_every < 0)
+        return pia_fail(context, PIA_E_ARGUMENT, "stop_change, stop_gradient or trace_every is not a number >= 0");
+    for (int d = 0; d < 2; d++)
+        if (o->control[d] < 1 && o->control[d] != PIA_AUTO)
+            return pia_fail(context, PIA_E_ARGUMENT, "%lld control points are not a count", (long long)o->control[d]);
+    return PIA_OK;
+}
+
+static int on_progress(void *user)
+{
+    pia_fit *fit = user;
+    pia_report report = {.struct_size = sizeof report};
+    pia_fit_report(fit, &report);
+    return fit->options.progress(fit->options.user, &report);
+}
+
+void pia_fit_set_progress(pia_fit *fit, int (*progress)(void *user, const pia_report *so_far), void *user)
+{
+    fit->options.progress = progress;
+    fit->options.user = user;
+    fit->solve.rules.progress = progress != NULL ? on_progress : NULL;
+    fit->solve.rules.user = fit;
+}
+
+static void set_rules(pia_fit *fit)
+{
+    const pia_fit_options *o = &fit->options;
+    fit->solve.rules = (pia_rules){
+        .tolerance = o->tolerance,
+        .iterations = o->max_iterations == PIA_AUTO ? fit->solve.method->iterations : o->max_iterations,
+        .change = o->stop_change < 0 ? 1e-14 * fit->extent : o->stop_change,
+        .gradient = o->stop_gradient < 0 ? 1e-12 : o->stop_gradient,
+        .time_limit = o->time_limit,
+        .trace_every = o->trace_every,
+    };
+    pia_fit_set_progress(fit, o->progress, o->user);
+}
+
+static pia_status take_iterate(pia_fit *fit)
+{
+    pia_iterate *iterate = &fit->iterate;
+    pia_index size = fit->op->cols * fit->dim;
+    *iterate = (pia_iterate){.context = fit->context, .op = fit->op, .dim = fit->dim, .extent = fit->extent, .owner = fit};
+    iterate->targets = (pia_targets){fit->points, fit->origin, fit->dim};
+    iterate->square = fit->square;
+    iterate->constraint_error = iterate->relative_gradient = NAN;
+    iterate->points = pia_take(fit->context, size, sizeof(double));
+    iterate->adjust = pia_take(fit->context, size, sizeof(double));
+    if (iterate->points == NULL || iterate->adjust == NULL) return PIA_E_MEMORY;
+    unsigned needs = fit->solve.method->needs;
+    if (!fit->square) {
+        pia_status status = pia_normal_open(fit->op, &iterate->targets, &iterate->normal);
+        if (status != PIA_OK && status != PIA_E_UNAVAILABLE) return status;
+    }
+    int fused = fit->solve.method->step != NULL && fit->solve.limiter == NULL;
+    if (((needs & PIA_NEEDS_ROWS) != 0 && !fused) || (!fit->square && iterate->normal == NULL)) {
+        iterate->residual = pia_take(fit->context, fit->rows * fit->dim, sizeof(double));
+        if (iterate->residual == NULL) return PIA_E_MEMORY;
+    }
+    if (fit->directions == 1 && !fit->borrowed_parameters && !fit->function_graph) iterate->project = pia_fit_project;
+    return PIA_OK;
+}
+
+/* The scale of relative gradients, where the normal form has not given it. */
+static pia_status scale_gradient(pia_fit *fit)
+{
+    pia_iterate *iterate = &fit->iterate;
+    if (fit->square) return PIA_OK;
+    if (iterate->normal != NULL) {
+        iterate->right_norm = sqrt(pia_iterate_dot(iterate, iterate->normal->right, iterate->normal->right));
+        return PIA_OK;
+    }
+    size_t bytes = (size_t)(fit->op->cols * fit->dim) * sizeof(double);
+    memset(iterate->adjust, 0, bytes);
+    pia_op_residual(fit->op, iterate->adjust, &iterate->targets, iterate->residual);
+    pia_op_gather(fit->op, iterate->residual, fit->op->weights, fit->dim, iterate->adjust);
+    iterate->right_norm = sqrt(pia_iterate_dot(iterate, iterate->adjust, iterate->adjust));
+    return PIA_OK;
+}
+
+static pia_status freeze_asked(pia_fit *fit)
+{
+    for (pia_index i = 0; i < fit->options.freeze_count; i++) {
+        pia_index control = fit->options.freeze[i];
+        if (control < 0 || control >= fit->op->fulls)
+            return pia_fail(fit->context, PIA_E_ARGUMENT, "control point %lld cannot be frozen; there are 0 to %lld",
+                            (long long)control, (long long)fit->op->fulls - 1);
+        pia_status status = pia_op_freeze(fit->op, pia_op_unknown(fit->op, control), 1);
+        if (status != PIA_OK) return status;
+    }
+    return PIA_OK;
+}
+
+static pia_status open_stages(pia_fit *fit, const pia_data *data)
+{
+    pia_status status = check_options(fit);
+    if (status == PIA_OK) status = pia_fit_take_data(fit, data);
+    if (status == PIA_OK) status = pia_fit_choose(fit);
+    if (status == PIA_OK) status = pia_fit_parametrize(fit, data);
+    if (status == PIA_OK) status = pia_fit_place(fit);
+    if (status == PIA_OK) status = pia_fit_operate(fit);
+    if (status == PIA_OK) status = freeze_asked(fit);
+    if (status == PIA_OK) status = take_iterate(fit);
+    if (status == PIA_OK) status = pia_fit_initial(fit);
+    if (status == PIA_OK) status = scale_gradient(fit);
+    if (status != PIA_OK) return status;
+    set_rules(fit);
+    fit->solve.iterate = &fit->iterate;
+    return pia_solve_begin(&fit->solve, &fit->method_values, &fit->limiter_values);
+}
+
+static pia_status open_fit(pia_context *context, const pia_data *data, const pia_fit_options *options, int borrowed, pia_fit **out)
+{
+    if (context == NULL || data == NULL || out == NULL) return pia_fail(context, PIA_E_ARGUMENT, "context, data or out is NULL");
+    double start = pia_seconds();
+    pia_data used;
+    pia_data_init(&used);
+    pia_status status = pia_options_read(context, "pia_data", &used, sizeof used, data);
+    if (status != PIA_OK) return status;
+    pia_fit *fit = pia_take_zero(context, 1, sizeof *fit);
+    if (fit == NULL) return PIA_E_MEMORY;
+    fit->context = context;
+    fit->borrowed = borrowed;
+    pia_fit_options_init(&fit->options);
+    status = pia_options_read(context, "pia_fit_options", &fit->options, sizeof fit->options, options);
+    if (status == PIA_OK) status = open_stages(fit, &used);
+    if (status != PIA_OK) {
+        pia_fit_close(fit);
+        return status;
+    }
+    fit->seconds = pia_seconds() - start;
+    *out = fit;
+    return PIA_OK;
+}
+
+pia_status pia_fit_open(pia_context *context, const pia_data *data, const pia_fit_options *options, pia_fit **out)
+{
+    return open_fit(context, data, options, 0, out);
+}
+
+pia_status pia_fit_borrow(pia_context *context, const pia_data *data, const pia_fit_options *options, pia_fit **out)
+{
+    return open_fit(context, data, options, 1, out);
+}
+
+void pia_fit_close(pia_fit *fit)
+{
+    if (fit == NULL) return;
+    pia_context *context = fit->context;
+    pia_solve_end(&fit->solve);
+    pia_normal_close(fit->iterate.normal);
+    pia_op_close(fit->op);
+    for (int d = 0; d < 2; d++) {
+        pia_collocation_close(context, &fit->line[d]);
+        pia_give(context, fit->knots[d]);
+        if (!fit->borrowed_parameters) pia_give(context, fit->parameter[d]);
+    }
+    pia_give(context, fit->iterate.points);
+    pia_give(context, fit->iterate.adjust);
+    pia_give(context, fit->iterate.residual);
+    pia_give(context, fit->own_points);
+    pia_give(context, fit->all_parameters);
+    pia_give(context, fit->row);
+    pia_give(context, fit->dropped);
+    pia_give(context, fit->weights);
+    pia_notes_clear(pia_memory_of(context), &fit->notes);
+    pia_give(context, fit);
+}

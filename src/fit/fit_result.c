@@ -1,0 +1,178 @@
+/* What a fit tells: report, trace, notes, residuals, parameters, and the model of the current iterate. */
+#include "fit.h"
+
+#include "knots.h"
+#include "model.h"
+#include "options.h"
+
+#include <math.h>
+#include <string.h>
+
+pia_status pia_fit_step(pia_fit *fit, pia_index iterations, pia_report *report)
+{
+    if (iterations < 0) return pia_fail(fit->context, PIA_E_ARGUMENT, "%lld iterations are not a count", (long long)iterations);
+    pia_status status = pia_solve_step(&fit->solve, iterations);
+    if (status == PIA_OK && report != NULL) status = pia_fit_report(fit, report);
+    return status;
+}
+
+pia_status pia_fit_run(pia_fit *fit, pia_report *report)
+{
+    return pia_fit_step(fit, INT64_MAX, report);
+}
+
+static pia_index data_row(const pia_fit *fit, pia_index row)
+{
+    return row >= 0 && fit->row != NULL ? fit->row[row] : row;
+}
+
+static void describe(const pia_fit *fit, pia_report *report)
+{
+    *report =
+        (pia_report){.struct_size = sizeof *report, .kind = fit->kind, .point_count = fit->rows, .repaired_count = fit->dropped_count};
+    pia_fit_names(fit, report);
+    report->control_count = 1;
+    for (int d = 0; d < 2; d++) {
+        report->degree[d] = d < fit->directions ? fit->degree[d] : 0;
+        report->control[d] = d >= fit->directions ? 1 : fit->closed[d] ? fit->op->count[d] : fit->full[d];
+        report->control_count *= report->control[d];
+    }
+}
+
+pia_status pia_fit_report(pia_fit *fit, pia_report *report)
+{
+    const pia_iterate *iterate = &fit->iterate;
+    pia_report full;
+    pia_iterate_measure(&fit->iterate);
+    describe(fit, &full);
+    full.iterations = iterate->iteration;
+    full.stop = fit->solve.stop;
+    full.max_error = iterate->errors.max;
+    full.max_error_index = data_row(fit, iterate->errors.max_row);
+    full.rms_error = iterate->errors.count > 0 ? sqrt(iterate->errors.sum_squares / (double)iterate->errors.count) : 0;
+    full.reached = fit->options.tolerance > 0 ? iterate->errors.max <= fit->options.tolerance : PIA_AUTO;
+    full.constraint_error = iterate->constraint_error;
+    full.relative_gradient = iterate->relative_gradient;
+    full.start_error = isnan(fit->solve.start_error) ? full.max_error : fit->solve.start_error;
+    full.rate = fit->solve.rate;
+    full.unsupported_count = iterate->normal != NULL ? iterate->normal->weak : 0;
+    full.seconds = fit->seconds + fit->solve.seconds;
+    pia_options_write(report, &full, sizeof full);
+    return PIA_OK;
+}
+
+int pia_fit_trace(const pia_fit *fit, pia_index index, pia_trace_row *out)
+{
+    if (index < 0 || index >= fit->solve.trace.count) return 0;
+    *out = fit->solve.trace.row[index];
+    return 1;
+}
+
+const char *pia_fit_note(const pia_fit *fit, pia_index index)
+{
+    return index >= 0 && index < fit->notes.count ? fit->notes.line[index] : NULL;
+}
+
+pia_status pia_fit_residuals(pia_fit *fit, double *out)
+{
+    if (out == NULL) return pia_fail(fit->context, PIA_E_ARGUMENT, "out is NULL");
+    pia_op_residual(fit->op, fit->iterate.points, &fit->iterate.targets, out);
+    return PIA_OK;
+}
+
+static pia_index parameter_count(const pia_fit *fit)
+{
+    return fit->kind == PIA_CURVE ? fit->rows : fit->kind == PIA_GRID ? fit->count[0] + fit->count[1] : 2 * fit->rows;
+}
+
+/* All parameters in one array: of a grid, u then v. */
+static void copy_parameters(const pia_fit *fit, double *out)
+{
+    pia_index first = fit->kind == PIA_SCATTERED ? 2 * fit->rows : fit->count[0];
+    memcpy(out, fit->parameter[0], (size_t)first * sizeof *out);
+    if (fit->kind == PIA_GRID) memcpy(out + first, fit->parameter[1], (size_t)fit->count[1] * sizeof *out);
+}
+
+pia_status pia_fit_parameters(pia_fit *fit, const double **parameters, pia_index *count, const pia_index **row)
+{
+    *parameters = fit->parameter[0];
+    *count = parameter_count(fit);
+    if (fit->kind == PIA_GRID) {
+        if (fit->all_parameters == NULL) fit->all_parameters = pia_take(fit->context, *count, sizeof(double));
+        if (fit->all_parameters == NULL) return PIA_E_MEMORY;
+        copy_parameters(fit, fit->all_parameters);
+        *parameters = fit->all_parameters;
+    }
+    if (row != NULL) *row = fit->row;
+    return PIA_OK;
+}
+
+/* Control points of the model [fulls x (dim + graph)]: the iterate moved back from the origin; a function graph's abscissas are the
+ * Greville line, which makes x the identity. */
+static void fill_control(pia_fit *fit, double *out)
+{
+    const pia_op *op = fit->op;
+    int dim = fit->dim, graph = fit->function_graph, wide = dim + graph;
+    for (pia_index i = 0; i < op->fulls; i++) {
+        const double *x = fit->iterate.points + pia_op_unknown(op, i) * dim;
+        if (graph) out[i * wide] = pia_knots_greville(fit->knots[0], fit->degree[0], i);
+        for (int d = 0; d < dim; d++) out[i * wide + graph + d] = x[d] + fit->origin[d];
+    }
+}
+
+static pia_status make_model(pia_fit *fit, pia_model **out)
+{
+    int wide = fit->dim + fit->function_graph;
+    if (!fit->closed[0] && !(fit->directions == 2 && fit->closed[1])) {
+        pia_status status = pia_model_new(fit->context, fit->directions, fit->degree, fit->full, wide, 0, out);
+        if (status != PIA_OK) return status;
+        for (int d = 0; d < fit->directions; d++)
+            memcpy((*out)->knots[d], fit->knots[d], (size_t)(fit->full[d] + fit->degree[d] + 1) * sizeof(double));
+        fill_control(fit, (*out)->points);
+        return PIA_OK;
+    }
+    double *points = pia_take(fit->context, fit->op->fulls * wide, sizeof *points);
+    if (points == NULL) return PIA_E_MEMORY;
+    fill_control(fit, points);
+    pia_status status = pia_model_from_cyclic(fit->context, fit->directions, fit->degree, (const double *const *)fit->knots, fit->full,
+                                              fit->closed, wide, points, out);
+    pia_give(fit->context, points);
+    return status;
+}
+
+/* Parameters are kept with the model where they cannot be computed again: given or corrected ones, and those of a file that lost rows
+ * or was turned. */
+static pia_status attach_summary(pia_fit *fit, pia_model *model)
+{
+    const pia_memory *memory = pia_memory_of(fit->context);
+    pia_summary summary = {.notes = fit->notes, .dropped = fit->dropped, .dropped_count = fit->dropped_count};
+    double *parameters = NULL;
+    pia_status status = pia_fit_report(fit, &summary.report);
+    if (status != PIA_OK) return status;
+    pia_index most = 4000000;
+    if (parameter_count(fit) <= most) {
+        parameters = pia_take(fit->context, parameter_count(fit), sizeof *parameters);
+        if (parameters == NULL) return PIA_E_MEMORY;
+        copy_parameters(fit, parameters);
+        summary.parameters = parameters;
+        summary.parameter_count = parameter_count(fit);
+    }
+    model->summary = pia_summary_copy(memory, &summary);
+    pia_give(fit->context, parameters);
+    return model->summary != NULL ? PIA_OK : pia_fail(fit->context, PIA_E_MEMORY, "out of memory for the summary of the fit");
+}
+
+pia_status pia_fit_model(pia_fit *fit, pia_model **out)
+{
+    if (out == NULL) return pia_fail(fit->context, PIA_E_ARGUMENT, "out is NULL");
+    pia_model *model;
+    pia_status status = make_model(fit, &model);
+    if (status != PIA_OK) return status;
+    status = attach_summary(fit, model);
+    if (status != PIA_OK) {
+        pia_model_destroy(model);
+        return status;
+    }
+    *out = model;
+    return PIA_OK;
+}

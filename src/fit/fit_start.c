@@ -1,0 +1,104 @@
+/* The initial control points: the data themselves for interpolation ([2004] Eq. 2), data picked evenly for least squares ([2014]), or
+ * those of the start model. */
+#include "fit.h"
+
+#include "basis.h"
+#include "knots.h"
+#include "model.h"
+
+#include <math.h>
+#include <string.h>
+
+/* The row of a line that unknown i starts from. */
+static pia_index picked_row(const pia_fit *fit, int d, pia_index i)
+{
+    pia_index n = fit->op->count[d], m = fit->count[d];
+    if (fit->square) return i;
+    if (!fit->closed[d]) {
+        if (i == n - 1) return m - 1;
+        pia_index at = n > 1 ? (pia_index)((double)m * (double)i / (double)(n - 1)) : 0;
+        return at < m ? at : m - 1;
+    }
+    double t = pia_knots_greville(fit->knots[d], fit->degree[d], i), low = fit->knots[d][fit->degree[d]];
+    while (t < low) t += 1;
+    while (t >= low + 1) t -= 1;
+    pia_index a = 0, b = m - 1;
+    while (a < b) {
+        pia_index middle = a + (b - a) / 2;
+        if (fit->parameter[d][middle] < t)
+            a = middle + 1;
+        else
+            b = middle;
+    }
+    return a;
+}
+
+static void from_data(pia_fit *fit)
+{
+    pia_iterate *iterate = &fit->iterate;
+    for (pia_index c = 0; c < fit->op->cols; c++) {
+        pia_index row = picked_row(fit, 0, c / fit->op->count[1]);
+        if (fit->directions == 2) row = row * fit->count[1] + picked_row(fit, 1, c % fit->op->count[1]);
+        for (int d = 0; d < fit->dim; d++) iterate->points[c * fit->dim + d] = fit->points[row * fit->dim + d] - fit->origin[d];
+    }
+}
+
+/* Means of the data by basis value, for scattered points and grids with holes; unknowns without data take the mean of all. */
+static pia_status from_means(pia_fit *fit)
+{
+    pia_op *op = fit->op;
+    int dim = fit->dim;
+    double *value = pia_take(fit->context, fit->rows * dim, sizeof *value), *weight = pia_take(fit->context, op->cols, sizeof *weight);
+    if (value == NULL || weight == NULL) {
+        pia_give(fit->context, value);
+        pia_give(fit->context, weight);
+        return PIA_E_MEMORY;
+    }
+    double mean[PIA_MAX_DIM] = {0};
+    pia_index held = 0;
+    for (pia_index r = 0; r < fit->rows; r++) {
+        int hole = 0;
+        for (int d = 0; d < dim; d++) hole |= isnan(fit->points[r * dim + d]) != 0;
+        for (int d = 0; d < dim; d++) value[r * dim + d] = hole ? 0 : fit->points[r * dim + d] - fit->origin[d];
+        for (int d = 0; d < dim && !hole; d++) mean[d] += (value[r * dim + d] - mean[d]) / (double)(held + 1);
+        held += !hole;
+    }
+    pia_op_gather(op, value, op->weights, dim, fit->iterate.points);
+    for (pia_index r = 0; r < fit->rows; r++) value[r] = isnan(fit->points[r * dim]) ? 0 : 1;
+    pia_op_gather(op, value, op->weights, 1, weight);
+    for (pia_index c = 0; c < op->cols; c++)
+        for (int d = 0; d < dim; d++) {
+            double *x = &fit->iterate.points[c * dim + d];
+            *x = weight[c] > 0 ? *x / weight[c] : mean[d];
+        }
+    pia_give(fit->context, value);
+    pia_give(fit->context, weight);
+    return PIA_OK;
+}
+
+static pia_status from_model(pia_fit *fit)
+{
+    const pia_model *start = fit->options.start;
+    int skip = fit->function_graph, wide = start->dim;
+    double *knots[2] = {NULL, NULL};
+    pia_index fulls = start->control[0] * start->control[1];
+    double *points = pia_take(fit->context, fulls * wide, sizeof *points);
+    for (int d = 0; d < fit->directions; d++) knots[d] = pia_take(fit->context, fit->full[d] + fit->degree[d] + 1, sizeof(double));
+    pia_status status = points != NULL && knots[0] != NULL && (fit->directions == 1 || knots[1] != NULL) ? PIA_OK : PIA_E_MEMORY;
+    if (status == PIA_OK) status = pia_model_to_cyclic(fit->context, start, knots, points);
+    for (pia_index i = 0; status == PIA_OK && i < fulls; i++)
+        for (int d = 0; d < fit->dim; d++)
+            fit->iterate.points[pia_op_unknown(fit->op, i) * fit->dim + d] = points[i * wide + skip + d] - fit->origin[d];
+    pia_give(fit->context, points);
+    pia_give(fit->context, knots[0]);
+    pia_give(fit->context, knots[1]);
+    return status;
+}
+
+pia_status pia_fit_initial(pia_fit *fit)
+{
+    if (fit->options.start != NULL) return from_model(fit);
+    if (fit->kind == PIA_SCATTERED || fit->has_holes) return from_means(fit);
+    from_data(fit);
+    return PIA_OK;
+}

@@ -1,0 +1,230 @@
+#include "solve.h"
+
+#include "kernel.h"
+#include "stop.h"
+
+#include <math.h>
+#include <string.h>
+#include <time.h>
+
+enum { MAX_HALVINGS = 24 };
+
+/* A step is taken back when the error exceeds this many times the smallest one seen: PIA on uneven data may grow for a while before it
+ * falls, and only real divergence gets here. */
+static const double GROWTH = 8;
+
+double pia_seconds(void)
+{
+    struct timespec now;
+    clock_gettime(CLOCK_MONOTONIC, &now);
+    return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
+}
+
+static pia_status take_state(pia_context *context, size_t size, void **state)
+{
+    if (size == 0) return PIA_OK;
+    *state = pia_take_zero(context, 1, size);
+    return *state != NULL ? PIA_OK : PIA_E_MEMORY;
+}
+
+pia_status pia_solve_begin(pia_solve *solve, const pia_values *method_values, const pia_values *limiter_values)
+{
+    pia_iterate *iterate = solve->iterate;
+    pia_status status = take_state(iterate->context, solve->method->state_size, &solve->method_state);
+    if (status == PIA_OK && solve->limiter != NULL)
+        status = take_state(iterate->context, solve->limiter->state_size, &solve->limiter_state);
+    iterate->damping = 1;
+    iterate->stalled = iterate->finished = 0;
+    iterate->relative_gradient = NAN;
+    iterate->adjust_max = 0;
+    solve->rate = solve->safe_error = solve->last_error = solve->best_error = NAN;
+    solve->best_iteration = iterate->iteration;
+    if (!solve->begun) solve->start_error = NAN;
+    solve->stop = PIA_STOP_NONE;
+    solve->begun = 1;
+    if (status == PIA_OK && solve->method->begin != NULL) status = solve->method->begin(iterate, method_values, solve->method_state);
+    if (status == PIA_OK && solve->limiter != NULL && solve->limiter->begin != NULL)
+        status = solve->limiter->begin(iterate, limiter_values, solve->limiter_state);
+    return status;
+}
+
+static void end_states(pia_solve *solve)
+{
+    pia_iterate *iterate = solve->iterate;
+    if (solve->method_state != NULL && solve->method->end != NULL) solve->method->end(iterate, solve->method_state);
+    if (solve->limiter_state != NULL && solve->limiter->end != NULL) solve->limiter->end(iterate, solve->limiter_state);
+    pia_give(iterate->context, solve->method_state);
+    pia_give(iterate->context, solve->limiter_state);
+    solve->method_state = solve->limiter_state = NULL;
+}
+
+pia_status pia_solve_restart(pia_solve *solve, const pia_values *method_values, const pia_values *limiter_values)
+{
+    end_states(solve);
+    solve->iterate->errors_known = 0;
+    return pia_solve_begin(solve, method_values, limiter_values);
+}
+
+void pia_solve_end(pia_solve *solve)
+{
+    if (solve->iterate == NULL) return;
+    end_states(solve);
+    pia_give(solve->iterate->context, solve->safe);
+    pia_trace_clear(pia_memory_of(solve->iterate->context), &solve->trace);
+    solve->safe = NULL;
+}
+
+static pia_status add_trace(pia_solve *solve)
+{
+    const pia_iterate *iterate = solve->iterate;
+    pia_trace_row row = {.iteration = iterate->iteration,
+                         .control_count = iterate->op->cols,
+                         .max_error = iterate->errors.max,
+                         .rms_error = iterate->errors.count > 0 ? sqrt(iterate->errors.sum_squares / (double)iterate->errors.count) : 0,
+                         .adjust_max = iterate->iteration > 0 ? iterate->adjust_max : 0,
+                         .constraint_error = iterate->constraint_error,
+                         .seconds = solve->seconds};
+    pia_index count = solve->trace.count;
+    if (count > 0 && solve->trace.row[count - 1].iteration == row.iteration) return PIA_OK;
+    return pia_trace_add(pia_memory_of(iterate->context), &solve->trace, &row) ? PIA_OK : PIA_E_MEMORY;
+}
+
+/* Bookkeeping with the errors of the current iterate, and a row of the trace where one is due. */
+static pia_status note_errors(pia_solve *solve)
+{
+    pia_iterate *iterate = solve->iterate;
+    double error = iterate->errors.max;
+    if (isnan(solve->start_error)) solve->start_error = error;
+    if (solve->last_error > 0 && error > 1e-12 * iterate->extent) {
+        double rate = error / solve->last_error;
+        solve->rate = isnan(solve->rate) ? rate : 0.8 * solve->rate + 0.2 * rate;
+    }
+    solve->last_error = error;
+    if (!(error >= 0.999 * solve->best_error)) {
+        solve->best_error = error;
+        solve->best_iteration = iterate->iteration;
+    }
+    pia_index every = solve->rules.trace_every;
+    return every > 0 && iterate->iteration % every == 0 ? add_trace(solve) : PIA_OK;
+}
+
+/* Keeps an iterate to return to; copies only where the error has halved since the last copy. */
+static pia_status keep_safe(pia_solve *solve)
+{
+    pia_iterate *iterate = solve->iterate;
+    size_t size = (size_t)(iterate->op->cols * iterate->dim) * sizeof(double);
+    if (solve->safe == NULL) {
+        solve->safe = pia_take(iterate->context, iterate->op->cols * iterate->dim, sizeof(double));
+        if (solve->safe == NULL) return PIA_E_MEMORY;
+        solve->safe_error = INFINITY;
+    }
+    if (!(solve->safe_error > 2 * iterate->errors.max || isinf(solve->safe_error))) return PIA_OK;
+    memcpy(solve->safe, iterate->points, size);
+    solve->safe_error = iterate->errors.max;
+    return PIA_OK;
+}
+
+/* True when the current iterate had to be taken back and the damping was halved. */
+static int take_back(pia_solve *solve)
+{
+    pia_iterate *iterate = solve->iterate;
+    if (solve->safe == NULL || iterate->errors.max <= GROWTH * solve->safe_error) return 0;
+    memcpy(iterate->points, solve->safe, (size_t)(iterate->op->cols * iterate->dim) * sizeof(double));
+    iterate->errors_known = 0;
+    iterate->damping /= 2;
+    solve->last_error = NAN;
+    iterate->stalled = iterate->damping < ldexp(1, -MAX_HALVINGS);
+    return 1;
+}
+
+static void add_chunk(void *work, pia_index chunk)
+{
+    pia_iterate *iterate = work;
+    pia_index count = iterate->op->cols * iterate->dim, chunks = pia_chunk_count(count, 65536);
+    for (pia_index i = pia_chunk_begin(count, chunks, chunk); i < pia_chunk_begin(count, chunks, chunk + 1); i++)
+        iterate->points[i] += iterate->adjust[i];
+}
+
+static pia_status update(pia_solve *solve, int fused)
+{
+    pia_iterate *iterate = solve->iterate;
+    if (fused) {
+        double *next = iterate->adjust;
+        iterate->adjust = iterate->points;
+        iterate->points = next;
+    } else if (solve->method->update != NULL) {
+        pia_status status = solve->method->update(iterate, solve->method_state);
+        if (status != PIA_OK) return status;
+    } else {
+        pia_for_each(iterate->context, pia_chunk_count(iterate->op->cols * iterate->dim, 65536), add_chunk, iterate);
+    }
+    iterate->errors_known = 0;
+    iterate->iteration++;
+    return PIA_OK;
+}
+
+/* Computes the step into D (or, fused, the next P); adjust_max is its size. */
+static pia_status compute(pia_solve *solve, int fused)
+{
+    pia_iterate *iterate = solve->iterate;
+    if (fused) return solve->method->step(iterate, solve->method_state);
+    pia_status status = solve->method->adjust(iterate, solve->method_state);
+    if (status == PIA_OK && !iterate->finished && solve->limiter != NULL) status = solve->limiter->limit(iterate, solve->limiter_state);
+    if (status == PIA_OK && !iterate->finished) iterate->adjust_max = pia_iterate_longest(iterate, iterate->adjust);
+    return status;
+}
+
+/* One iteration; sets solve->stop when a rule fires. */
+static pia_status iterate_once(pia_solve *solve)
+{
+    pia_iterate *iterate = solve->iterate;
+    const pia_method *method = solve->method;
+    pia_status status = PIA_OK;
+    int rows = (method->needs & PIA_NEEDS_ROWS) != 0;
+    int fused = method->step != NULL && solve->limiter == NULL;
+    if (pia_stop_needs_errors(solve) || (rows && !fused)) pia_iterate_measure(iterate);
+    if (iterate->errors_known) {
+        if (rows && take_back(solve)) return PIA_OK;
+        status = note_errors(solve);
+    }
+    if (status != PIA_OK) return status;
+    if (solve->rules.progress != NULL && solve->rules.progress(solve->rules.user)) solve->stop = PIA_STOP_CANCELLED;
+    if (solve->stop == PIA_STOP_NONE) solve->stop = pia_stop_before(solve);
+    if (solve->stop == PIA_STOP_NONE && iterate->stalled) solve->stop = PIA_STOP_STALLED;
+    if (solve->stop != PIA_STOP_NONE) return PIA_OK;
+    int known = iterate->errors_known;
+    double last_change = iterate->adjust_max;
+    status = compute(solve, fused);
+    if (status != PIA_OK) return status;
+    if (!known && iterate->errors_known) {
+        if (rows && take_back(solve)) return PIA_OK;
+        status = note_errors(solve);
+    }
+    if (status == PIA_OK && rows) status = keep_safe(solve);
+    solve->stop = status == PIA_OK ? pia_stop_after(solve) : PIA_STOP_NONE;
+    if (solve->stop != PIA_STOP_NONE) {
+        iterate->adjust_max = last_change;
+        return status;
+    }
+    return status == PIA_OK ? update(solve, fused) : status;
+}
+
+pia_status pia_solve_step(pia_solve *solve, pia_index iterations)
+{
+    pia_iterate *iterate = solve->iterate;
+    pia_index goal = iterations > INT64_MAX - iterate->iteration ? INT64_MAX : iterate->iteration + iterations;
+    pia_status status = PIA_OK;
+    double start = pia_seconds() - solve->seconds;
+    if (solve->stop == PIA_STOP_ITERATIONS || solve->stop == PIA_STOP_CANCELLED || solve->stop == PIA_STOP_TIME)
+        solve->stop = PIA_STOP_NONE;
+    while (status == PIA_OK && solve->stop == PIA_STOP_NONE && iterate->iteration < goal) {
+        status = iterate_once(solve);
+        solve->seconds = pia_seconds() - start;
+    }
+    if (status != PIA_OK) return status;
+    pia_iterate_measure(iterate);
+    if (isnan(solve->start_error)) solve->start_error = iterate->errors.max;
+    if (solve->rules.trace_every > 0) status = add_trace(solve);
+    solve->seconds = pia_seconds() - start;
+    return status;
+}

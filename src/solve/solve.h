@@ -1,0 +1,53 @@
+/* The only loop. It knows stop rules, time, cancellation, the trace and progress; a method knows its step, a limiter how to shorten
+ * it. Steps of interpolating methods that make the error grow are taken back and damped, so that no iterate runs away. */
+#ifndef PIA_SOLVE_SOLVE_H
+#define PIA_SOLVE_SOLVE_H
+
+#include "iterate.h"
+#include "limit.h"
+#include "method.h"
+#include "trace.h"
+
+typedef struct pia_rules {
+    double tolerance;            /* largest deviation; 0: none */
+    pia_index iterations;        /* most updates in all */
+    double change;               /* stop when no control point moves more, units of the points; 0: never */
+    double gradient;             /* stop at this relative gradient; 0: never */
+    double time_limit;           /* seconds in all; 0: none */
+    pia_index trace_every;       /* 0: no trace */
+    int (*progress)(void *user); /* NULL: none; non-zero cancels */
+    void *user;
+} pia_rules;
+
+typedef struct pia_solve {
+    pia_iterate *iterate;
+    const pia_method *method;
+    const pia_limiter *limiter; /* NULL: none */
+    void *method_state, *limiter_state;
+    pia_rules rules;
+    pia_trace trace;
+    pia_stop stop;
+    double seconds;     /* spent so far */
+    double start_error; /* largest deviation of iterate 0; NAN until measured */
+    double rate;        /* observed factor of the error an iteration, smoothed; NAN until known */
+    double *safe;       /* the iterate to return to when steps grow [cols x dim]; NULL until needed */
+    double safe_error;
+    double last_error;
+    double best_error; /* smallest error so far, and when it was reached */
+    pia_index best_iteration;
+    int begun;
+} pia_solve;
+
+/* Allocates the states and begins method and limiter. */
+pia_status pia_solve_begin(pia_solve *solve, const pia_values *method_values, const pia_values *limiter_values);
+/* At most `iterations` updates; fewer when a rule fires. Ends with solve->stop, PIA_STOP_NONE when the count ran out first. */
+pia_status pia_solve_step(pia_solve *solve, pia_index iterations);
+/* Before going on after an edit: forgets the stop reason and what was known of the errors; history of accelerated methods starts anew.
+ */
+pia_status pia_solve_restart(pia_solve *solve, const pia_values *method_values, const pia_values *limiter_values);
+void pia_solve_end(pia_solve *solve);
+
+/* Monotonic seconds. */
+double pia_seconds(void);
+
+#endif

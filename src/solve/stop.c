@@ -1,0 +1,33 @@
+#include "stop.h"
+
+enum { PATIENCE = 400 }; /* iterations without a thousandth of progress before a rows method counts as stalled */
+
+int pia_stop_needs_errors(const pia_solve *solve)
+{
+    const pia_rules *rules = &solve->rules;
+    pia_index k = solve->iterate->iteration;
+    return rules->tolerance > 0 || rules->progress != NULL || (rules->trace_every > 0 && k % rules->trace_every == 0);
+}
+
+pia_stop pia_stop_before(const pia_solve *solve)
+{
+    const pia_iterate *iterate = solve->iterate;
+    const pia_rules *rules = &solve->rules;
+    if (rules->tolerance > 0 && iterate->errors_known && iterate->errors.max <= rules->tolerance) return PIA_STOP_TOLERANCE;
+    if (iterate->iteration >= rules->iterations) return PIA_STOP_ITERATIONS;
+    if (rules->time_limit > 0 && solve->seconds >= rules->time_limit) return PIA_STOP_TIME;
+    return PIA_STOP_NONE;
+}
+
+pia_stop pia_stop_after(const pia_solve *solve)
+{
+    const pia_iterate *iterate = solve->iterate;
+    const pia_rules *rules = &solve->rules;
+    if (iterate->finished) return PIA_STOP_FINITE;
+    if (rules->tolerance > 0 && iterate->errors_known && iterate->errors.max <= rules->tolerance) return PIA_STOP_TOLERANCE;
+    if (rules->gradient > 0 && iterate->relative_gradient <= rules->gradient) return PIA_STOP_GRADIENT;
+    if (iterate->stalled) return PIA_STOP_STALLED;
+    if (rules->change > 0 && iterate->errors_known && iterate->iteration - solve->best_iteration >= PATIENCE) return PIA_STOP_STALLED;
+    if (rules->change > 0 && iterate->adjust_max <= rules->change) return PIA_STOP_CHANGE;
+    return PIA_STOP_NONE;
+}
