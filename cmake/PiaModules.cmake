@@ -29,6 +29,17 @@ function(pia_module folder)
   set(PIA_OBJECTS ${PIA_OBJECTS} ${name} CACHE INTERNAL "")
 endfunction()
 
+# pia_part_file(module stem PART): of the files stem_<part>.c and stem_none.c the module keeps the one this build can have.
+function(pia_part_file module stem part)
+  string(TOLOWER ${part} file)
+  set(left_out ${file})
+  if(PIA_HAVE_${part})
+    set(left_out none)
+    target_link_libraries(pia_${module} PRIVATE PkgConfig::${part})
+  endif()
+  set_source_files_properties(${PIA_SOURCE}/${module}/${stem}_${left_out}.c PROPERTIES HEADER_FILE_ONLY ON)
+endfunction()
+
 # pia_registry(module/function type pattern...): every file that matches exports one record named pia_<file name>, and
 # `const type *function(pia_index)` lists them in the order of the patterns, by name within a pattern.
 function(pia_registry target type)
