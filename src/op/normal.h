@@ -11,8 +11,11 @@ typedef struct pia_normal pia_normal;
 typedef struct pia_normal_class {
     const char *name;
     void (*multiply)(const pia_normal *normal, const double *x, int dim, double *y); /* y = H x */
-    pia_status (*factor)(pia_normal *normal);                                        /* once before solve */
+    pia_status (*factor)(pia_normal *normal);                                        /* before solve, and after every change */
     void (*solve)(const pia_normal *normal, double *b, int dim);                     /* b := H^-1 b */
+    void (*sweep)(const pia_normal *normal, double *x, int dim);                     /* one symmetric Gauss-Seidel sweep for H x = b;
+                                                                                        NULL: the rows of H are not at hand */
+    void (*refresh)(pia_normal *normal, const pia_targets *targets, pia_index first_row, pia_index last_row);
     void (*close)(pia_normal *normal);
 } pia_normal_class;
 
@@ -22,12 +25,20 @@ struct pia_normal {
     double *right;      /* b [cols x dim] */
     double *diagonal;   /* of H [cols] */
     double *column_sum; /* sum over rows of w N_c [cols] */
-    pia_index weak;     /* unknowns the factorisation had to decouple */
+    pia_index weak;     /* unknowns that the data do not hold, known after factor: solutions are 0 or small there */
     void *state;
 };
 
 /* Errors: PIA_E_MEMORY; PIA_E_UNAVAILABLE when this operator has no cheap normal form (a grid with holes). */
 pia_status pia_normal_open(pia_op *op, const pia_targets *targets, pia_normal **out);
 void pia_normal_close(pia_normal *normal);
+
+/* Points or weights of rows first_row .. last_row have changed, their parameters have not: sums again, from the data, what these rows
+ * touch. Gives the same bits as a normal form opened anew. */
+void pia_normal_refresh(pia_normal *normal, const pia_targets *targets, pia_index first_row, pia_index last_row);
+
+/* For pia_normal_open: the normal forms of its operators, whose arrays are allocated and whose state is to be made. */
+pia_status pia_normal_curve_open(pia_normal *normal, const pia_targets *targets);
+pia_status pia_normal_grid_open(pia_normal *normal, const pia_targets *targets);
 
 #endif

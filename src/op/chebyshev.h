@@ -1,0 +1,20 @@
+/* The basis functions of one span as polynomials of a local parameter. */
+#ifndef PIA_OP_CHEBYSHEV_H
+#define PIA_OP_CHEBYSHEV_H
+
+#include "collocation.h"
+
+/* The discrete Chebyshev transform of polynomials of a degree: from values at node[i] to coefficients,
+ * coefficient j = sum over i of transform[i * (degree + 1) + j] value i. */
+typedef struct pia_chebyshev {
+    int degree;
+    double node[PIA_MAX_DEGREE + 1], transform[(PIA_MAX_DEGREE + 1) * (PIA_MAX_DEGREE + 1)];
+} pia_chebyshev;
+
+void pia_chebyshev_fill(int degree, pia_chebyshev *out);
+
+/* Chebyshev coefficients of the degree + 1 basis functions of span s in x = (t - middle) * scale: coefficient[k * (degree + 1) + j]. */
+void pia_chebyshev_span(const pia_chebyshev *c, const pia_collocation *line, pia_index s, double *middle, double *scale,
+                        double *coefficient);
+
+#endif

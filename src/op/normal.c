@@ -1,0 +1,44 @@
+#include "normal.h"
+
+static pia_status take_arrays(pia_normal *normal, int dim)
+{
+    pia_context *context = normal->op->context;
+    pia_index cols = normal->op->cols;
+    normal->right = pia_take(context, cols, (size_t)dim * sizeof *normal->right);
+    normal->diagonal = pia_take(context, cols, sizeof *normal->diagonal);
+    normal->column_sum = pia_take(context, cols, sizeof *normal->column_sum);
+    if (normal->right != NULL && normal->diagonal != NULL && normal->column_sum != NULL) return PIA_OK;
+    return pia_take_status(context, cols, (size_t)dim * sizeof *normal->right);
+}
+
+pia_status pia_normal_open(pia_op *op, const pia_targets *targets, pia_normal **out)
+{
+    if (op->line[0] == NULL) return pia_fail(op->context, PIA_E_UNAVAILABLE, "%s has no cheap normal form", op->class->name);
+    pia_normal *normal = pia_take_zero(op->context, 1, sizeof *normal);
+    if (normal == NULL) return pia_take_status(op->context, 1, sizeof *normal);
+    normal->op = op;
+    pia_status status = take_arrays(normal, targets->dim);
+    if (status == PIA_OK) status = op->directions == 1 ? pia_normal_curve_open(normal, targets) : pia_normal_grid_open(normal, targets);
+    if (status != PIA_OK) {
+        pia_normal_close(normal);
+        return status;
+    }
+    *out = normal;
+    return PIA_OK;
+}
+
+void pia_normal_close(pia_normal *normal)
+{
+    if (normal == NULL) return;
+    pia_context *context = normal->op->context;
+    if (normal->class != NULL) normal->class->close(normal);
+    pia_give(context, normal->right);
+    pia_give(context, normal->diagonal);
+    pia_give(context, normal->column_sum);
+    pia_give(context, normal);
+}
+
+void pia_normal_refresh(pia_normal *normal, const pia_targets *targets, pia_index first_row, pia_index last_row)
+{
+    normal->class->refresh(normal, targets, first_row, last_row);
+}

@@ -1,0 +1,116 @@
+/* The normal form of a curve: the shares of the knot spans are kept, so that an edit sums again only the spans it touches, and are put
+ * together in order of the spans, which costs as much as one iteration. */
+#include "gram.h"
+#include "normal.h"
+#include "span_sums.h"
+
+#include <string.h>
+
+typedef struct curve {
+    pia_gram gram;
+    double *share; /* [spans x room] */
+    int room;
+} curve;
+
+static pia_index spans(const pia_collocation *line)
+{
+    return line->full - line->degree;
+}
+
+static void assemble(pia_normal *normal, int dim)
+{
+    curve *c = normal->state;
+    const pia_collocation *line = c->gram.line;
+    int width = line->degree + 1, triangle = pia_span_room(line->degree, 0);
+    pia_gram_clear(&c->gram);
+    memset(normal->right, 0, (size_t)(line->unknowns * dim) * sizeof *normal->right);
+    for (pia_index s = 0; s < spans(line); s++) {
+        const double *share = c->share + s * c->room;
+        pia_gram_add(&c->gram, s, share);
+        for (int k = 0; k < width; k++) {
+            double *right = normal->right + pia_collocation_unknown(line, s + k) * dim;
+            for (int d = 0; d < dim; d++) right[d] += share[triangle + k * dim + d];
+        }
+    }
+    pia_op_mask(normal->op, normal->right, dim);
+}
+
+/* The basis functions sum to 1, so the rows of H sum to the column sums. */
+static void derive(pia_normal *normal)
+{
+    curve *c = normal->state;
+    for (pia_index i = 0; i < c->gram.count; i++) normal->diagonal[i] = 1;
+    pia_gram_multiply(&c->gram, normal->diagonal, 1, 1, normal->column_sum);
+    pia_gram_diagonal(&c->gram, normal->diagonal);
+}
+
+static void multiply(const pia_normal *normal, const double *x, int dim, double *y)
+{
+    const curve *c = normal->state;
+    pia_gram_multiply(&c->gram, x, 1, dim, y);
+    pia_op_mask(normal->op, y, dim);
+}
+
+static pia_status factor(pia_normal *normal)
+{
+    curve *c = normal->state;
+    pia_status status = pia_gram_factor(&c->gram, normal->op->frozen);
+    normal->weak = c->gram.weak;
+    return status;
+}
+
+static void solve(const pia_normal *normal, double *b, int dim)
+{
+    const curve *c = normal->state;
+    pia_gram_solve(&c->gram, b, 1, dim);
+}
+
+static void sweep(const pia_normal *normal, double *x, int dim)
+{
+    const curve *c = normal->state;
+    pia_gram_sweep(&c->gram, normal->op->frozen, normal->diagonal, normal->right, dim, x);
+}
+
+static void refresh(pia_normal *normal, const pia_targets *targets, pia_index first_row, pia_index last_row)
+{
+    curve *c = normal->state;
+    const pia_collocation *line = c->gram.line;
+    pia_index first = pia_collocation_span(line, first_row) - line->degree, last = pia_collocation_span(line, last_row) - line->degree;
+    pia_span_data data = {normal->op->context, line, normal->op->weights, targets};
+    pia_span_sums(&data, first, last, c->share + first * c->room);
+    assemble(normal, targets->dim);
+    derive(normal);
+}
+
+static void close(pia_normal *normal)
+{
+    curve *c = normal->state;
+    pia_context *context = normal->op->context;
+    pia_give(context, c->share);
+    pia_gram_close(&c->gram);
+    pia_give(context, c);
+}
+
+static const pia_normal_class banded = {"banded", multiply, factor, solve, sweep, refresh, close};
+
+pia_status pia_normal_curve_open(pia_normal *normal, const pia_targets *targets)
+{
+    pia_context *context = normal->op->context;
+    const pia_collocation *line = normal->op->line[0];
+    int room = pia_span_room(line->degree, targets->dim);
+    curve *c = pia_take_zero(context, 1, sizeof *c);
+    if (c == NULL) return pia_take_status(context, 1, sizeof *c);
+    normal->state = c;
+    normal->class = &banded;
+    c->room = room;
+    c->gram.context = context;
+    c->share = pia_take(context, spans(line), (size_t)room * sizeof *c->share);
+    if (c->share == NULL) return pia_take_status(context, spans(line), (size_t)room * sizeof *c->share);
+    pia_status status = pia_gram_open(context, line, &c->gram);
+    if (status != PIA_OK) return status;
+    pia_span_data data = {context, line, normal->op->weights, targets};
+    pia_span_sums(&data, 0, spans(line) - 1, c->share);
+    assemble(normal, targets->dim);
+    derive(normal);
+    return PIA_OK;
+}

@@ -1,0 +1,219 @@
+/* Within a span the basis functions are polynomials: the sums of products of Chebyshev polynomials (kernel/moments.h) become those of
+ * basis functions by one small change of basis a span. */
+#include "span_sums.h"
+
+#include "chebyshev.h"
+#include "kernel.h"
+#include "moments.h"
+
+#include <math.h>
+#include <string.h>
+
+/* FEW: below, evaluating basis functions is cheaper than the change of basis. PIECE: rows of a span that one task sums; longer spans
+ * are shared between tasks. GRAIN: rows a task gets when spans are short. */
+enum { FEW = 16, PIECE = 262144, GRAIN = 16384, MAX_CHUNKS = 256 };
+
+int pia_span_room(int degree, int dim)
+{
+    return (degree + 1) * (degree + 2) / 2 + (degree + 1) * dim;
+}
+
+static inline __attribute__((always_inline)) void add_point(const double *value, double w, const double *q, const double *origin,
+                                                            int degree, int dim, double *share)
+{
+    for (int k = 0; k <= degree; k++)
+        for (int l = k; l <= degree; l++) *share++ += w * value[k] * value[l];
+    for (int k = 0; k <= degree; k++)
+        for (int d = 0; d < dim; d++) *share++ += w * value[k] * (q[d] - origin[d]);
+}
+
+static inline __attribute__((always_inline)) void plain_span(const pia_span_data *data, pia_index s, int degree, int dim, double *share)
+{
+    const pia_collocation *line = data->line;
+    double scratch[PIA_MAX_DEGREE + 1];
+    memset(share, 0, (size_t)pia_span_room(degree, dim) * sizeof *share);
+    for (pia_index row = line->begin[s]; row < line->begin[s + 1]; row++) {
+        const double *value = pia_collocation_row(line, row, degree + s, scratch);
+        const double *q = dim > 0 ? data->targets->points + row * dim : NULL, *origin = dim > 0 ? data->targets->origin : NULL;
+        add_point(value, data->weights != NULL ? data->weights[row] : 1, q, origin, degree, dim, share);
+    }
+}
+
+static int components(const pia_span_data *data)
+{
+    return data->targets != NULL ? data->targets->dim : 0;
+}
+
+/* The cubic in up to three dimensions is what nearly everybody fits. */
+static void sum_plain(const pia_span_data *data, pia_index s, double *share)
+{
+    int degree = data->line->degree, dim = components(data);
+    if (degree == 3 && dim == 3)
+        plain_span(data, s, 3, 3, share);
+    else if (degree == 3 && dim == 2)
+        plain_span(data, s, 3, 2, share);
+    else
+        plain_span(data, s, degree, dim, share);
+}
+
+static pia_moments moments_of(const pia_span_data *data, double middle, double scale)
+{
+    const double *origin = data->targets != NULL ? data->targets->origin : NULL;
+    return (pia_moments){data->line->degree, components(data), origin, middle, scale};
+}
+
+static void sum_rows(const pia_span_data *data, const pia_moments *m, pia_index from, pia_index to, double *sums)
+{
+    const double *points = m->dim > 0 ? data->targets->points + from * m->dim : NULL;
+    const double *weights = data->weights != NULL ? data->weights + from : NULL;
+    pia_moments_add(m, data->line->parameters + from, points, weights, to - from, sums);
+}
+
+typedef struct pieces {
+    const pia_span_data *data;
+    const pia_moments *moments;
+    pia_index from, count, chunks;
+    double (*sums)[PIA_MOMENTS_ROOM];
+} pieces;
+
+static void sum_piece(void *work, pia_index chunk)
+{
+    const pieces *p = work;
+    memset(p->sums[chunk], 0, sizeof *p->sums);
+    sum_rows(p->data, p->moments, p->from + pia_chunk_begin(p->count, p->chunks, chunk),
+             p->from + pia_chunk_begin(p->count, p->chunks, chunk + 1), p->sums[chunk]);
+}
+
+/* A span of very many rows: a few pieces at a time, their sums added in order. */
+static void sum_long(const pia_span_data *data, const pia_moments *m, pia_index from, pia_index to, double *sums)
+{
+    enum { AT_ONCE = 16 };
+    double part[AT_ONCE][PIA_MOMENTS_ROOM];
+    while (from < to) {
+        pia_index count = to - from < AT_ONCE * (pia_index)PIECE ? to - from : AT_ONCE * (pia_index)PIECE;
+        pieces p = {data, m, from, count, AT_ONCE, part};
+        pia_for_each(data->context, AT_ONCE, sum_piece, &p);
+        for (int c = 0; c < AT_ONCE; c++)
+            for (int k = 0; k < (m->dim + 2) * (m->degree + 1); k++) sums[k] += part[c][k];
+        from += count;
+    }
+}
+
+/* product(i, j) = sum w T_i T_j = (m(i + j) + m(|i - j|)) / 2, where m(degree + i) = 2 sum w T_degree T_i - m(degree - i). */
+static void cross_moments(int degree, const double *sums, double *product)
+{
+    double m[2 * PIA_MAX_DEGREE + 1];
+    for (int j = 0; j <= degree; j++) m[j] = sums[j];
+    for (int i = 1; i <= degree; i++) m[degree + i] = 2 * sums[degree + 1 + i] - m[degree - i];
+    for (int i = 0; i <= degree; i++)
+        for (int j = 0; j <= degree; j++) product[i * (degree + 1) + j] = 0.5 * (m[i + j] + m[i > j ? i - j : j - i]);
+}
+
+static void change_basis(int degree, int dim, const double *coefficient, const double *sums, double *share)
+{
+    enum { ROOM = (PIA_MAX_DEGREE + 1) * (PIA_MAX_DEGREE + 1) };
+    int width = degree + 1;
+    double product[ROOM], half[PIA_MAX_DEGREE + 1];
+    cross_moments(degree, sums, product);
+    for (int k = 0; k < width; k++) {
+        for (int j = 0; j < width; j++) {
+            half[j] = 0;
+            for (int i = 0; i < width; i++) half[j] += coefficient[k * width + i] * product[i * width + j];
+        }
+        for (int l = k; l < width; l++) {
+            double sum = 0;
+            for (int j = 0; j < width; j++) sum += half[j] * coefficient[l * width + j];
+            *share++ = sum;
+        }
+    }
+    for (int k = 0; k < width; k++)
+        for (int d = 0; d < dim; d++) {
+            double sum = 0;
+            for (int j = 0; j < width; j++) sum += coefficient[k * width + j] * sums[(2 + d) * width + j];
+            *share++ = sum;
+        }
+}
+
+static void sum_moments(const pia_span_data *data, const pia_chebyshev *c, pia_index s, double *share)
+{
+    double middle, scale, coefficient[(PIA_MAX_DEGREE + 1) * (PIA_MAX_DEGREE + 1)], sums[PIA_MOMENTS_ROOM];
+    pia_chebyshev_span(c, data->line, s, &middle, &scale, coefficient);
+    if (!isfinite(scale)) {
+        sum_plain(data, s, share);
+        return;
+    }
+    pia_moments m = moments_of(data, middle, scale);
+    pia_index from = data->line->begin[s], to = data->line->begin[s + 1];
+    memset(sums, 0, (size_t)((m.dim + 2) * (m.degree + 1)) * sizeof *sums);
+    if (to - from > PIECE)
+        sum_long(data, &m, from, to, sums);
+    else
+        sum_rows(data, &m, from, to, sums);
+    change_basis(m.degree, m.dim, coefficient, sums, share);
+}
+
+typedef struct sweep {
+    const pia_span_data *data;
+    pia_index first, last, chunks;
+    double *share;
+    const pia_chebyshev *chebyshev; /* NULL: plain sums */
+} sweep;
+
+/* First span of a chunk: chunks hold about the same number of rows. */
+static pia_index chunk_span(const sweep *w, pia_index chunk)
+{
+    const pia_index *begin = w->data->line->begin;
+    pia_index low = w->first, high = w->last + 1;
+    if (chunk == w->chunks) return high;
+    pia_index row = begin[low] + pia_chunk_begin(begin[high] - begin[low], w->chunks, chunk);
+    while (low < high) {
+        pia_index middle = low + (high - low) / 2;
+        if (begin[middle] < row)
+            low = middle + 1;
+        else
+            high = middle;
+    }
+    return low;
+}
+
+static int is_long(const pia_span_data *data, pia_index s)
+{
+    return data->line->begin[s + 1] - data->line->begin[s] > PIECE;
+}
+
+static void sum_chunk(void *work, pia_index chunk)
+{
+    const sweep *w = work;
+    const pia_index *begin = w->data->line->begin;
+    int room = pia_span_room(w->data->line->degree, components(w->data));
+    for (pia_index s = chunk_span(w, chunk); s < chunk_span(w, chunk + 1); s++) {
+        double *share = w->share + (s - w->first) * room;
+        if (w->chebyshev == NULL || begin[s + 1] - begin[s] < FEW)
+            sum_plain(w->data, s, share);
+        else if (!is_long(w->data, s))
+            sum_moments(w->data, w->chebyshev, s, share);
+    }
+}
+
+static sweep sweep_over(const pia_span_data *data, pia_index first, pia_index last, double *share, const pia_chebyshev *chebyshev)
+{
+    pia_index chunks = pia_chunk_count(data->line->begin[last + 1] - data->line->begin[first], GRAIN);
+    return (sweep){data, first, last, chunks < MAX_CHUNKS ? chunks : MAX_CHUNKS, share, chebyshev};
+}
+
+void pia_span_sums(const pia_span_data *data, pia_index first, pia_index last, double *share)
+{
+    pia_chebyshev chebyshev;
+    pia_chebyshev_fill(data->line->degree, &chebyshev);
+    sweep w = sweep_over(data, first, last, share, &chebyshev);
+    pia_for_each(data->context, w.chunks, sum_chunk, &w);
+    for (pia_index s = first; s <= last; s++) /* their rows are shared between the threads, one such span after the other */
+        if (is_long(data, s))
+            sum_moments(data, &chebyshev, s, share + (s - first) * pia_span_room(data->line->degree, components(data)));
+}
+
+void pia_span_sums_plain(const pia_span_data *data, pia_index first, pia_index last, double *share)
+{
+    sweep w = sweep_over(data, first, last, share, NULL);
+    pia_for_each(data->context, w.chunks, sum_chunk, &w);
+}

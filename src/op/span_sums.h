@@ -1,0 +1,24 @@
+/* The share of one knot span in the normal form: products of its degree + 1 basis functions, and their products with the data. */
+#ifndef PIA_OP_SPAN_SUMS_H
+#define PIA_OP_SPAN_SUMS_H
+
+#include "op.h"
+
+/* Doubles of a share: the upper triangle by rows, sum w N_k N_l for k <= l, then sum w N_k (q - origin) [(degree + 1) x dim]. */
+int pia_span_room(int degree, int dim);
+
+/* What is summed: the rows of a line, their weights [rows] (NULL: 1) and targets (NULL: the triangle alone). */
+typedef struct pia_span_data {
+    pia_context *context;
+    const pia_collocation *line;
+    const double *weights;
+    const pia_targets *targets;
+} pia_span_data;
+
+/* Shares of spans first .. last (span s begins at knot degree + s) into share[(s - first) * room]. Spans of many points go by moments.
+ * The same bits whatever the threads and whatever the range. */
+void pia_span_sums(const pia_span_data *data, pia_index first, pia_index last, double *share);
+/* The same from basis values alone, point by point: digits that moments lose where a basis function is almost zero at all points. */
+void pia_span_sums_plain(const pia_span_data *data, pia_index first, pia_index last, double *share);
+
+#endif
