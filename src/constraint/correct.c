@@ -1,0 +1,112 @@
+/* Constraints on the direct solve: the Schur complement of the normal equations. */
+#include "conditions.h"
+
+#include <math.h>
+#include <string.h>
+
+enum { REFINEMENTS = 3, POWER_ROUNDS = 100 };
+
+/* Row j of B into column k of y [cols x dim]. */
+static void put_column(const pia_constraints *c, pia_index j, int k, double *y)
+{
+    double unit[PIA_MAX_DIM] = {0};
+    unit[k] = 1;
+    pia_functional_add(&c->row[j], unit, c->dim, y);
+}
+
+/* As many rows at a time as a point has components: the normal form has room for those. */
+pia_status pia_schur_of_normal(const pia_constraints *c, const pia_normal *normal, pia_schur *s)
+{
+    int dim = c->dim;
+    pia_index size = c->op->cols * dim;
+    double *y = pia_take(c->context, size, sizeof *y), *column = pia_take(c->context, c->count, (size_t)dim * sizeof *column);
+    int ready = y != NULL && column != NULL;
+    for (pia_index j = 0; ready && j < c->count; j += dim) {
+        int block = (int)(c->count - j < dim ? c->count - j : dim);
+        memset(y, 0, (size_t)size * sizeof *y);
+        for (int k = 0; k < block; k++) put_column(c, j + k, k, y);
+        pia_op_mask(c->op, y, dim);
+        normal->class->solve(normal, y, dim);
+        pia_op_mask(c->op, y, dim);
+        for (pia_index i = 0; i < c->count; i++) {
+            double value[PIA_MAX_DIM];
+            pia_functional_value(&c->row[i], y, dim, value);
+            for (int k = 0; k < dim; k++) column[k * c->count + i] = value[k];
+        }
+        for (int k = 0; k < block; k++) pia_schur_fill(c, s, j + k, column + k * c->count);
+    }
+    pia_give(c->context, y);
+    pia_give(c->context, column);
+    return ready ? PIA_OK : pia_take_status(c->context, size, sizeof *y);
+}
+
+pia_status pia_constraints_factor(pia_constraints *c, const pia_normal *normal)
+{
+    pia_schur s;
+    pia_status status = pia_schur_open(c, &s);
+    if (status != PIA_OK) return status;
+    status = pia_schur_of_normal(c, normal, &s);
+    if (status == PIA_OK) pia_schur_factor(&s, 1e-14);
+    if (status == PIA_OK && s.rank < s.size)
+        status =
+            pia_fail(c->context, PIA_E_UNAVAILABLE,
+                     "the data hold too little of the control points that the constraints need for a direct solve; use clspia-pcg");
+    if (status != PIA_OK) {
+        pia_schur_close(c, &s);
+        return status;
+    }
+    pia_schur_close(c, &c->direct);
+    c->direct = s;
+    return PIA_OK;
+}
+
+/* What is left of the constraints at P + d goes through the same complement again: its rounding is that of H^-1. */
+pia_status pia_constraints_correct(const pia_constraints *c, const pia_normal *normal, const double *points, double *correction)
+{
+    pia_index size = c->op->cols * c->dim;
+    double *y = pia_take(c->context, size, sizeof *y);
+    if (y == NULL) return pia_take_status(c->context, size, sizeof *y);
+    for (int round = 0; round < REFINEMENTS; round++) {
+        for (pia_index i = 0; i < size; i++) y[i] = points[i] + correction[i];
+        pia_constraints_residual(c, y, c->left);
+        pia_schur_solve(c, &c->direct, c->left, c->multiplier);
+        memset(y, 0, (size_t)size * sizeof *y);
+        pia_constraints_add(c, c->multiplier, 1, y);
+        normal->class->solve(normal, y, c->dim);
+        pia_op_mask(c->op, y, c->dim);
+        for (pia_index i = 0; i < size; i++) correction[i] += y[i];
+    }
+    pia_give(c->context, y);
+    return PIA_OK;
+}
+
+/* One round in all components at once, on rows [count x dim]; returns the length of the result, to which they are normed. */
+static double power_round(const pia_constraints *c, const pia_normal *normal, double *rows, double *y)
+{
+    double square = 0;
+    pia_index numbers = c->count * c->dim;
+    memset(y, 0, (size_t)(c->op->cols * c->dim) * sizeof *y);
+    pia_constraints_add(c, rows, 1, y);
+    normal->class->solve(normal, y, c->dim);
+    for (pia_index i = 0; i < c->count; i++) pia_functional_value(&c->row[i], y, c->dim, rows + i * c->dim);
+    for (pia_index i = 0; i < numbers; i++) square += rows[i] * rows[i];
+    double length = sqrt(square);
+    for (pia_index i = 0; i < numbers && length > 0; i++) rows[i] /= length;
+    return length;
+}
+
+pia_status pia_constraints_schur_bound(const pia_constraints *c, const pia_normal *normal, double *out)
+{
+    pia_index size = c->op->cols * c->dim;
+    double *y = pia_take(c->context, size, sizeof *y), value = 0, before = -1;
+    if (y == NULL) return pia_take_status(c->context, size, sizeof *y);
+    for (pia_index i = 0; i < c->count * c->dim; i++) c->left[i] = 1 + 0.1 * (double)(i % 7);
+    power_round(c, normal, c->left, y);
+    for (int round = 0; round < POWER_ROUNDS && fabs(value - before) > 1e-6 * value; round++) {
+        before = value;
+        value = power_round(c, normal, c->left, y);
+    }
+    pia_give(c->context, y);
+    *out = value;
+    return PIA_OK;
+}
