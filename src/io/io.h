@@ -49,6 +49,10 @@ void pia_points_clear(pia_points *points);
 pia_status pia_points_from_heights(pia_context *context, const double *values, pia_index rows, pia_index columns, const double first[2],
                                    const double step[2], pia_points *out);
 
+/* Refuses points with a component that is not finite, naming the first; a NaN passes with options->allow_nan, and rows (not grids)
+ * are dropped and counted with options->skip_invalid. For formats without lines. */
+pia_status pia_points_screen(pia_context *context, const pia_input *input, const pia_points_options *options, pia_points *points);
+
 /* Points of model `model` at `samples` uniform parameters a direction (PIA_AUTO: enough for a picture); parameters
  * [count x directions] and points [count x dim] are the caller's to give back; count[1] is 1 for a curve. */
 pia_status pia_model_sample(pia_context *context, const pia_model *model, pia_index samples, double **parameters, double **points,
