@@ -115,12 +115,8 @@ pia_status pia_model_from_cyclic(pia_context *context, int directions, const int
         status = pia_knots_check(context, degree[d], model->knots[d], model->control[d] + degree[d] + 1, model->control[d]);
     }
     if (status == PIA_OK) status = clamp_points(context, knots, control, points, model);
-    if (status == PIA_OK) {
-        pia_index count = model->control[0] * model->control[1] * dim, bad = pia_finite(model->points, count);
-        if (bad < count)
-            status = pia_fail(context, PIA_E_DATA, "control point %lld is %g; it must be finite", (long long)(bad / dim),
-                              model->points[bad]);
-    }
+    if (status == PIA_OK)
+        status = pia_check_finite(context, "control point", model->points, model->control[0] * model->control[1], dim);
     if (status == PIA_OK)
         *out = model;
     else

@@ -171,19 +171,16 @@ static void evaluate_chunk(void *work, pia_index chunk)
 pia_status pia_model_eval(pia_context *context, const pia_model *model, const double *parameters, pia_index count, int derivatives,
                           double *out)
 {
-    if (model == NULL || parameters == NULL || out == NULL)
-        return pia_fail(context, PIA_E_ARGUMENT, "pia_model_eval needs a model, parameters and out");
-    if (count < 0) return pia_fail(context, PIA_E_ARGUMENT, "%lld parameters; the count cannot be negative", (long long)count);
+    if (model == NULL || out == NULL) return pia_fail(context, PIA_E_ARGUMENT, "pia_model_eval needs a model and out");
     if (derivatives < 0) return pia_fail(context, PIA_E_ARGUMENT, "derivative %d; orders count from 0", derivatives);
     pia_index stride, total;
+    if (count < 0) return pia_fail(context, PIA_E_ARGUMENT, "%lld parameters; the count cannot be negative", (long long)count);
     if (!pia_multiply(pia_derivative_rows(model->directions, derivatives), model->dim, &stride) ||
         !pia_multiply(stride, count, &total) || !pia_multiply(total, sizeof *out, &total))
         return pia_fail(context, PIA_E_SIZE, "%lld parameters with derivatives up to %d do not fit in 64 bits; ask for less",
                         (long long)count, derivatives);
-    pia_index bad = pia_finite(parameters, count * model->directions);
-    if (bad < count * model->directions)
-        return pia_fail(context, PIA_E_DATA, "parameter %lld is %g; it must be finite", (long long)(bad / model->directions),
-                        parameters[bad]);
+    pia_status status = pia_check_finite(context, "parameter", parameters, count, model->directions);
+    if (status != PIA_OK) return status;
     sweep s = {model, parameters, count, pia_chunk_count(count, GRAIN), stride, derivatives, out};
     pia_for_each(context, s.chunks, evaluate_chunk, &s);
     return PIA_OK;

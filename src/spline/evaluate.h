@@ -5,7 +5,7 @@
 #include "model.h"
 
 /* Rows of an evaluation with derivatives up to `order`: order + 1 for a curve, (order + 1)(order + 2) / 2 for a surface, the
- * derivative a times in u and b times in v at row pia_derivative_row(a, b). 0 when the number does not fit in 64 bits. */
+ * derivative a times in u and b times in v at row pia_derivative_row(a, b). */
 pia_index pia_derivative_rows(int directions, int order);
 pia_index pia_derivative_row(int a, int b);
 

@@ -8,13 +8,11 @@
 
 static pia_status check_values(pia_context *context, const double *values, pia_index count)
 {
-    if (count < 0 || (count > 0 && values == NULL))
-        return pia_fail(context, PIA_E_ARGUMENT, "%lld knots to insert; give values and how many", (long long)count);
-    pia_index bad = pia_finite(values, count);
-    if (bad < count) return pia_fail(context, PIA_E_DATA, "knot %lld to insert is %g; it must be finite", (long long)bad, values[bad]);
+    pia_status status = pia_check_finite(context, "inserted knot", values, count, 1);
+    if (status != PIA_OK) return status;
     for (pia_index i = 1; i < count; i++)
         if (values[i] < values[i - 1])
-            return pia_fail(context, PIA_E_DATA, "knot %lld to insert (%.17g) is below the one before; sort them", (long long)i,
+            return pia_fail(context, PIA_E_DATA, "inserted knot %lld (%.17g) is below the one before; sort them", (long long)i,
                             values[i]);
     return PIA_OK;
 }

@@ -61,10 +61,8 @@ pia_status pia_model_new(pia_context *context, int directions, const int *degree
 
 static pia_status check_points(pia_context *context, const double *points, const double *weights, pia_index count, int dim)
 {
-    pia_index bad = pia_finite(points, count * dim);
-    if (bad < count * dim)
-        return pia_fail(context, PIA_E_DATA, "component %d of control point %lld is %g; it must be finite", (int)(bad % dim),
-                        (long long)(bad / dim), points[bad]);
+    pia_status status = pia_check_finite(context, "control point", points, count, dim);
+    if (status != PIA_OK) return status;
     for (pia_index i = 0; weights != NULL && i < count; i++) {
         if (!(weights[i] > 0) || !isfinite(weights[i]))
             return pia_fail(context, PIA_E_DATA, "weight %lld is %g; weights are finite and above 0", (long long)i, weights[i]);
