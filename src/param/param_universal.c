@@ -67,7 +67,7 @@ static pia_status compute(pia_context *context, const double *points, pia_index 
 const pia_parametrization pia_param_universal = {
     .name = "universal",
     .title = "universal: where the basis functions of uniform knots are largest",
-    .reference = "lim-1999",
+    .reference = "lim1999",
     .detail = "depends on the number of points and the degree only; affinely invariant; closed curves: uniform",
     .compute = compute,
 };
