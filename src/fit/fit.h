@@ -30,7 +30,8 @@ struct pia_fit {
     pia_index *row;     /* [rows] data row of each row used; NULL: the same */
     pia_index *dropped; /* [dropped_count] data rows not used */
     pia_index dropped_count;
-    double *weights; /* [rows]; NULL: 1 */
+    double *weights;                        /* [rows]; NULL: 1 */
+    double *tolerances, *inverse_tolerance; /* [rows] what each row may deviate; NULL: the option for all */
     int has_holes;
     double origin[PIA_MAX_DIM], low[PIA_MAX_DIM], high[PIA_MAX_DIM];
     double extent; /* of what is fitted */
@@ -52,6 +53,8 @@ struct pia_fit {
     pia_solve solve;
     pia_values method_values, limiter_values;
     pia_notes notes;
+    int refining;           /* knots are still to be found for a tolerance */
+    pia_index round;        /* rounds of growing, sparing, correcting */
     double *all_parameters; /* of a grid, u then v, once asked for; NULL before */
     double seconds;         /* spent in opening */
 };
@@ -63,7 +66,11 @@ void pia_fit_names(const pia_fit *fit, pia_report *report);
 pia_status pia_fit_parametrize(pia_fit *fit, const pia_data *data);
 pia_status pia_fit_place(pia_fit *fit);
 pia_status pia_fit_operate(pia_fit *fit);
+/* Operator, normal form and iterate for the current knots, in place of the ones before; control points undefined. */
+pia_status pia_fit_assemble(pia_fit *fit);
 pia_status pia_fit_initial(pia_fit *fit);
+/* Rows of a closed direction in the order in which the domain of its knots meets them. */
+pia_status pia_fit_turn(pia_fit *fit, int direction);
 /* Moves the parameters of a curve to the closest points of the iterate nearby, never past the middle to a neighbour. */
 pia_status pia_fit_project(pia_iterate *iterate);
 

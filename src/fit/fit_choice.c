@@ -43,8 +43,19 @@ static int wants_least_squares(const pia_fit *fit)
         if (o->control[d] != PIA_AUTO && o->control[d] != count) fewer = 1;
         if (o->knots[d] != NULL && o->knot_count[d] != count + o->degree[d] + 1) fewer = 1;
     }
-    return fewer || fit->kind == PIA_SCATTERED || fit->has_holes || fit->weights != NULL || o->interpolate_count > 0 ||
+    return fewer || fit->refining || fit->kind == PIA_SCATTERED || fit->has_holes || fit->weights != NULL || o->interpolate_count > 0 ||
            o->constraint_count > 0;
+}
+
+/* A tolerance without control points, knots or a start asks for the knots as well; interpolating methods only stop at it. */
+static int is_refining(const pia_fit *fit)
+{
+    const pia_fit_options *o = &fit->options;
+    const pia_method *method = o->method != NULL ? pia_method_find(o->method) : NULL;
+    if (!(o->tolerance > 0) || o->start != NULL || (method != NULL && (method->needs & PIA_LEAST_SQUARES) == 0)) return 0;
+    for (int d = 0; d < fit->directions; d++)
+        if (o->control[d] != PIA_AUTO || o->knots[d] != NULL) return 0;
+    return 1;
 }
 
 static const char *automatic(pia_fit *fit)
@@ -70,6 +81,11 @@ static const char *automatic(pia_fit *fit)
         pia_fit_note_add(fit, "method: lspia, because the limiter %s shortens its steps", o->limiter);
         return "lspia";
     }
+    if (fit->refining) {
+        pia_fit_note_add(
+            fit, "method: direct, with knots added where the error is and spared where it is not, because a tolerance is asked");
+        return "direct";
+    }
     pia_fit_note_add(fit, fit->has_holes || fit->kind == PIA_SCATTERED ? "method: direct, sparse normal equations"
                                                                        : "method: direct, banded normal equations");
     return "direct";
@@ -78,6 +94,7 @@ static const char *automatic(pia_fit *fit)
 static pia_status choose_method(pia_fit *fit)
 {
     const char *name = fit->options.method;
+    fit->refining = is_refining(fit);
     if (name == NULL || strcmp(name, "auto") == 0) name = automatic(fit);
     fit->solve.method = pia_method_find(name);
     if (fit->solve.method == NULL) return unknown(fit, "method", name);

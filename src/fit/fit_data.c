@@ -158,7 +158,9 @@ pia_status pia_fit_drop_rows(pia_fit *fit, const unsigned char *keep)
             continue;
         }
         memmove(fit->own_points + kept * fit->dim, fit->own_points + i * fit->dim, (size_t)fit->dim * sizeof(double));
-        if (fit->weights != NULL) fit->weights[kept] = fit->weights[i];
+        double *per_row[] = {fit->weights, fit->tolerances, fit->inverse_tolerance};
+        for (size_t k = 0; k < sizeof per_row / sizeof *per_row; k++)
+            if (per_row[k] != NULL) per_row[k][kept] = per_row[k][i];
         if (fit->parameter[0] != NULL && fit->directions == 1) fit->parameter[0][kept] = fit->parameter[0][i];
         fit->row[kept++] = fit->row[i];
     }
@@ -229,6 +231,10 @@ static pia_status take_graph(pia_fit *fit, const pia_data *data)
         fit->parameter[0][i] = order[i].x;
         fit->row[i] = from;
         if (fit->weights != NULL) fit->weights[i] = data->weights[from];
+        if (fit->tolerances != NULL) {
+            fit->tolerances[i] = data->tolerances[from];
+            fit->inverse_tolerance[i] = 1 / data->tolerances[from];
+        }
     }
     pia_give(fit->context, order);
     fit->points = fit->own_points;
@@ -251,6 +257,25 @@ static pia_status take_weights(pia_fit *fit, const double *weights)
     }
     if (sum > 0 && isfinite(sum)) return PIA_OK;
     return pia_fail(fit->context, PIA_E_DATA, "the weights add up to %g; at least one must be positive, and none huge", sum);
+}
+
+static pia_status take_tolerances(pia_fit *fit, const double *tolerances)
+{
+    if (tolerances == NULL) return PIA_OK;
+    double largest = 0;
+    fit->tolerances = pia_take(fit->context, fit->rows, sizeof(double));
+    fit->inverse_tolerance = pia_take(fit->context, fit->rows, sizeof(double));
+    if (fit->tolerances == NULL || fit->inverse_tolerance == NULL) return PIA_E_MEMORY;
+    for (pia_index i = 0; i < fit->rows; i++) {
+        if (!(tolerances[i] > 0) || isinf(tolerances[i]))
+            return pia_fail(fit->context, PIA_E_DATA, "tolerance %lld is %g; tolerances are finite and positive", (long long)i,
+                            tolerances[i]);
+        largest = fmax(largest, tolerances[i]);
+        fit->tolerances[i] = tolerances[i];
+        fit->inverse_tolerance[i] = 1 / tolerances[i];
+    }
+    if (!(fit->options.tolerance > 0)) fit->options.tolerance = largest;
+    return PIA_OK;
 }
 
 static pia_status check_shape(pia_fit *fit, const pia_data *data)
@@ -318,6 +343,7 @@ pia_status pia_fit_take_data(pia_fit *fit, const pia_data *data)
     fit->has_holes = all.holes;
     status = set_box(fit, &all, data->function_graph != 0);
     if (status == PIA_OK) status = take_weights(fit, data->weights);
+    if (status == PIA_OK) status = take_tolerances(fit, data->tolerances);
     if (status == PIA_OK && fit->function_graph) return take_graph(fit, data);
     if (status == PIA_OK && !fit->borrowed) {
         fit->own_points = pia_take(fit->context, fit->rows * fit->dim, sizeof(double));

@@ -19,6 +19,7 @@ static pia_index wanted_control(const pia_fit *fit, int d)
     pia_index asked = fit->options.control[d], rows = fit->kind == PIA_SCATTERED ? fit->rows : fit->count[d];
     if (asked != PIA_AUTO) return asked;
     if (fit->square) return rows;
+    if (fit->refining) return fit->closed[d] ? (fit->degree[d] > 2 ? fit->degree[d] + 1 : 4) : fit->degree[d] + 1;
     pia_index tenth = rows / 10, least = fit->degree[d] + 1;
     return tenth > least ? tenth : least < rows ? least : rows;
 }
@@ -128,7 +129,7 @@ static void rotate(void *base, pia_index count, size_t size, pia_index by, void 
 }
 
 /* Closed: the domain of the knots starts near 0, not at it. Rows before it come one period later, at the end. */
-static pia_status turn(pia_fit *fit, int d)
+pia_status pia_fit_turn(pia_fit *fit, int d)
 {
     double *t = fit->parameter[d], low = fit->knots[d][fit->degree[d]];
     pia_index lines = fit->count[d], by = 0, late = 0;
@@ -138,7 +139,7 @@ static pia_status turn(pia_fit *fit, int d)
     for (pia_index i = 0; i < by; i++) t[i] += 1;
     for (pia_index i = lines - late; i < lines; i++) t[i] -= 1;
     pia_index shift = by > 0 ? by : (lines - late) % lines, other = fit->rows / lines;
-    fit->offset[d] = shift;
+    fit->offset[d] = shift; /* of this turn: interpolation turns once */
     if (shift == 0) return PIA_OK;
     size_t point = (size_t)fit->dim * sizeof(double);
     pia_index block = d == 0 ? other : 1, blocks = d == 0 ? 1 : other;
@@ -151,7 +152,9 @@ static pia_status turn(pia_fit *fit, int d)
         pia_index at = b * lines;
         rotate(fit->own_points + at * fit->dim, lines * block, point, shift * block, spare);
         rotate(fit->row + at, lines * block, sizeof *fit->row, shift * block, spare);
-        if (fit->weights != NULL) rotate(fit->weights + at, lines * block, sizeof *fit->weights, shift * block, spare);
+        double *per_row[] = {fit->weights, fit->tolerances, fit->inverse_tolerance};
+        for (size_t k = 0; k < sizeof per_row / sizeof *per_row; k++)
+            if (per_row[k] != NULL) rotate(per_row[k] + at, lines * block, sizeof(double), shift * block, spare);
     }
     pia_give(fit->context, spare);
     return PIA_OK;
@@ -203,7 +206,7 @@ pia_status pia_fit_place(pia_fit *fit)
     }
     for (int d = 0; d < fit->directions && status == PIA_OK; d++) {
         status = fit_into_domain(fit, d);
-        if (status == PIA_OK && fit->closed[d] && fit->kind != PIA_SCATTERED) status = turn(fit, d);
+        if (status == PIA_OK && fit->closed[d] && fit->kind != PIA_SCATTERED) status = pia_fit_turn(fit, d);
     }
     return status;
 }

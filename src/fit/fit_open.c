@@ -79,11 +79,25 @@ static void set_rules(pia_fit *fit)
     pia_fit_set_progress(fit, o->progress, o->user);
 }
 
+static void drop_assembly(pia_fit *fit)
+{
+    pia_iterate *iterate = &fit->iterate;
+    pia_normal_close(iterate->normal);
+    pia_op_close(fit->op);
+    fit->op = NULL;
+    for (int d = 0; d < 2; d++) pia_collocation_close(fit->context, &fit->line[d]);
+    pia_give(fit->context, iterate->points);
+    pia_give(fit->context, iterate->adjust);
+    pia_give(fit->context, iterate->residual);
+    *iterate = (pia_iterate){.iteration = iterate->iteration};
+}
+
 static pia_status take_iterate(pia_fit *fit)
 {
     pia_iterate *iterate = &fit->iterate;
-    pia_index size = fit->op->cols * fit->dim;
-    *iterate = (pia_iterate){.context = fit->context, .op = fit->op, .dim = fit->dim, .extent = fit->extent, .owner = fit};
+    pia_index size = fit->op->cols * fit->dim, iteration = iterate->iteration;
+    *iterate = (pia_iterate){
+        .context = fit->context, .op = fit->op, .dim = fit->dim, .extent = fit->extent, .owner = fit, .iteration = iteration};
     iterate->targets = (pia_targets){fit->points, fit->origin, fit->dim};
     iterate->square = fit->square;
     iterate->constraint_error = iterate->relative_gradient = NAN;
@@ -96,7 +110,7 @@ static pia_status take_iterate(pia_fit *fit)
         if (status != PIA_OK && status != PIA_E_UNAVAILABLE) return status;
     }
     int fused = fit->solve.method->step != NULL && fit->solve.limiter == NULL;
-    if (((needs & PIA_NEEDS_ROWS) != 0 && !fused) || (!fit->square && iterate->normal == NULL)) {
+    if (((needs & PIA_NEEDS_ROWS) != 0 && !fused) || (!fit->square && iterate->normal == NULL) || fit->refining) {
         iterate->residual = pia_take(fit->context, fit->rows * fit->dim, sizeof(double));
         if (iterate->residual == NULL) return PIA_E_MEMORY;
     }
@@ -121,6 +135,14 @@ static pia_status scale_gradient(pia_fit *fit)
     return PIA_OK;
 }
 
+pia_status pia_fit_assemble(pia_fit *fit)
+{
+    drop_assembly(fit);
+    pia_status status = pia_fit_operate(fit);
+    if (status == PIA_OK) status = take_iterate(fit);
+    return status == PIA_OK ? scale_gradient(fit) : status;
+}
+
 static pia_status freeze_asked(pia_fit *fit)
 {
     for (pia_index i = 0; i < fit->options.freeze_count; i++) {
@@ -141,11 +163,9 @@ static pia_status open_stages(pia_fit *fit, const pia_data *data)
     if (status == PIA_OK) status = pia_fit_choose(fit);
     if (status == PIA_OK) status = pia_fit_parametrize(fit, data);
     if (status == PIA_OK) status = pia_fit_place(fit);
-    if (status == PIA_OK) status = pia_fit_operate(fit);
+    if (status == PIA_OK) status = pia_fit_assemble(fit);
     if (status == PIA_OK) status = freeze_asked(fit);
-    if (status == PIA_OK) status = take_iterate(fit);
     if (status == PIA_OK) status = pia_fit_initial(fit);
-    if (status == PIA_OK) status = scale_gradient(fit);
     if (status != PIA_OK) return status;
     set_rules(fit);
     fit->solve.iterate = &fit->iterate;
@@ -191,16 +211,13 @@ void pia_fit_close(pia_fit *fit)
     if (fit == NULL) return;
     pia_context *context = fit->context;
     pia_solve_end(&fit->solve);
-    pia_normal_close(fit->iterate.normal);
-    pia_op_close(fit->op);
+    drop_assembly(fit);
     for (int d = 0; d < 2; d++) {
-        pia_collocation_close(context, &fit->line[d]);
         pia_give(context, fit->knots[d]);
         if (!fit->borrowed_parameters) pia_give(context, fit->parameter[d]);
     }
-    pia_give(context, fit->iterate.points);
-    pia_give(context, fit->iterate.adjust);
-    pia_give(context, fit->iterate.residual);
+    pia_give(context, fit->tolerances);
+    pia_give(context, fit->inverse_tolerance);
     pia_give(context, fit->own_points);
     pia_give(context, fit->all_parameters);
     pia_give(context, fit->row);

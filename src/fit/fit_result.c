@@ -4,6 +4,7 @@
 #include "knots.h"
 #include "model.h"
 #include "options.h"
+#include "refine.h"
 
 #include <math.h>
 #include <string.h>
@@ -11,6 +12,11 @@
 pia_status pia_fit_step(pia_fit *fit, pia_index iterations, pia_report *report)
 {
     if (iterations < 0) return pia_fail(fit->context, PIA_E_ARGUMENT, "%lld iterations are not a count", (long long)iterations);
+    if (fit->refining) {
+        fit->refining = 0;
+        pia_status refined = pia_refine_curve(fit);
+        return refined == PIA_OK && report != NULL ? pia_fit_report(fit, report) : refined;
+    }
     pia_status status = pia_solve_step(&fit->solve, iterations);
     if (status == PIA_OK && report != NULL) status = pia_fit_report(fit, report);
     return status;
@@ -56,6 +62,7 @@ pia_status pia_fit_report(pia_fit *fit, pia_report *report)
     full.start_error = isnan(fit->solve.start_error) ? full.max_error : fit->solve.start_error;
     full.rate = fit->solve.rate;
     full.unsupported_count = iterate->normal != NULL ? iterate->normal->weak : 0;
+    full.round_count = fit->round;
     full.seconds = fit->seconds + fit->solve.seconds;
     pia_options_write(report, &full, sizeof full);
     return PIA_OK;
