@@ -59,7 +59,7 @@ static pia_status adjust(pia_iterate *iterate, void *state)
 {
     cg *c = state;
     int dim = iterate->dim;
-    double gamma[PIA_MAX_DIM], factor[PIA_MAX_DIM], curvature[PIA_MAX_DIM], *z = iterate->adjust;
+    double gamma[PIA_MAX_DIM] = {0}, factor[PIA_MAX_DIM], curvature[PIA_MAX_DIM], *z = iterate->adjust;
     pia_iterate_gradient(iterate, c->gradient);
     pia_scale_rows(iterate, c->preconditioner, c->gradient, z);
     dot_components(iterate, c->gradient, z, gamma);

@@ -169,7 +169,7 @@ pia_status pia_plot(pia_context *context, const char *path, const pia_model *con
                     pia_index count, const pia_plot_options *options)
 {
     pia_plot_options o;
-    pia_picture picture;
+    pia_picture picture = PIA_PICTURE_SVG;
     pia_plot_options_init(&o);
     pia_status status = pia_options_read(context, "pia_plot_options", &o, sizeof o, options);
     if (status != PIA_OK) return status;
