@@ -16,6 +16,7 @@ static long long ten_to(int exponent)
 
 void pia_label_fixed(double value, int decimals, char text[PIA_LABEL_SIZE])
 {
+    decimals = decimals < 0 ? 0 : decimals > 15 ? 15 : decimals;
     long long unit = ten_to(decimals), scaled = llround(fabs(value) * (double)unit);
     const char *sign = value < 0 && scaled != 0 ? minus : "";
     if (decimals == 0)

@@ -4,7 +4,7 @@
 
 enum { PIA_LABEL_SIZE = 64 }; /* room for any label */
 
-/* `decimals` digits after the point, |value| below 1e15. */
+/* `decimals` digits after the point, 0 to 15; |value| * 10^decimals below 2^63. */
 void pia_label_fixed(double value, int decimals, char text[PIA_LABEL_SIZE]);
 
 /* At most `digits` significant digits (1 to 15) without trailing zeros; a power of ten outside 1e-3 .. 1e5. "not finite" otherwise. */

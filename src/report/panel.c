@@ -17,6 +17,11 @@ pia_colour pia_curve_colour(const pia_scene *scene, pia_index index)
     return scene->deviation != NULL && scene->figure_count == 1 ? pia_colour_grey(0.25) : pia_colour_cycle(index);
 }
 
+int pia_knots_shown(const pia_scene *scene, const pia_figure *curve)
+{
+    return scene->options.knots && pia_samples_knots(&curve->samples[0]) <= PIA_MOST_MARKS;
+}
+
 void pia_comb_legend(const pia_scene *scene, pia_legend *legend)
 {
     char size[PIA_LABEL_SIZE];

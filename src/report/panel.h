@@ -36,6 +36,10 @@ pia_colour pia_curve_colour(const pia_scene *scene, pia_index index);
 /* The entry of the curvature combs, where there are any. */
 void pia_comb_legend(const pia_scene *scene, pia_legend *legend);
 
+/* More knots or control points than this get no marks: they would run into each other. */
+enum { PIA_MOST_MARKS = 400 };
+int pia_knots_shown(const pia_scene *scene, const pia_figure *curve);
+
 /* Radius of the dots that stand for `count` points. */
 double pia_dot_radius(pia_index count);
 

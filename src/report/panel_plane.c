@@ -6,7 +6,6 @@
 
 #include <math.h>
 
-enum { MOST_CONTROL_MARKS = 400 };
 static const double strong = 1.5;  /* width of curves */
 static const double tick = 6;      /* length of a knot mark */
 static const double stretched = 8; /* extents further apart than this, of a curve that never turns back, get their own scales */
@@ -53,7 +52,7 @@ static void draw_control(pia_canvas *canvas, const pia_frame *frame, const pia_f
 {
     pia_index count = figure->info.control[0];
     spots_of(frame, figure->control, count, spots);
-    if (count > MOST_CONTROL_MARKS) {
+    if (count > PIA_MOST_MARKS) {
         canvas->line(canvas, spots, pia_thin_line(spots, count, 0.25), pia_style_control);
         return;
     }
@@ -141,7 +140,8 @@ static pia_status draw_layers(pia_canvas *canvas, const pia_scene *scene, const 
     for (pia_index f = 0; f < scene->figure_count; f++) draw_comb(canvas, scene, frame, &scene->figure[f], spots);
     if (scene->point_count > 0 && scene->deviation == NULL) status = draw_points(canvas, scene, frame, spots);
     for (pia_index f = 0; f < scene->figure_count; f++) draw_curve(canvas, scene, frame, f, spots);
-    for (pia_index f = 0; show->knots && f < scene->figure_count; f++) draw_knots(canvas, frame, &scene->figure[f]);
+    for (pia_index f = 0; f < scene->figure_count; f++)
+        if (pia_knots_shown(scene, &scene->figure[f])) draw_knots(canvas, frame, &scene->figure[f]);
     if (scene->deviation != NULL) status = draw_points(canvas, scene, frame, spots);
     return status;
 }
@@ -175,9 +175,9 @@ void pia_plane_legend(const pia_scene *scene, pia_legend *legend)
     for (pia_index f = 0; scene->figure_count > 1 && f < scene->figure_count && f < 6; f++)
         pia_legend_add(legend, (pia_pen){pia_curve_colour(scene, f), strong, 0}, PIA_MARK_NONE, pia_style_text,
                        f == 5 && scene->figure_count > 6 ? "curve %lld and more" : "curve %lld", (long long)f + 1);
-    if (scene->options.knots) pia_legend_add(legend, none, PIA_MARK_TICK, pia_style_text, "knots");
+    if (pia_knots_shown(scene, first)) pia_legend_add(legend, none, PIA_MARK_TICK, pia_style_text, "knots");
     if (scene->options.control)
-        pia_legend_add(legend, pia_style_control, first->info.control[0] > MOST_CONTROL_MARKS ? PIA_MARK_NONE : PIA_MARK_SQUARE,
+        pia_legend_add(legend, pia_style_control, first->info.control[0] > PIA_MOST_MARKS ? PIA_MARK_NONE : PIA_MARK_SQUARE,
                        pia_style_paper, "control polygon");
     pia_comb_legend(scene, legend);
 }

@@ -8,7 +8,7 @@
 #include <math.h>
 #include <stdio.h>
 
-enum { MOST_NET = 4000, MOST_DOTS_ON_SURFACE = 3000, MOST_CONTROL_MARKS = 400 };
+enum { MOST_NET = 4000, MOST_DOTS_ON_SURFACE = 3000 };
 static const double strong = 1.6;
 
 static int all_terrain(const pia_scene *scene)
@@ -117,12 +117,12 @@ static void add_curve(pia_pieces *pieces, const pia_scene *scene, pia_index inde
     const pia_figure *figure = &scene->figure[index];
     if (net_shown(scene, figure)) {
         add_polyline(pieces, figure->control, figure->info.control[0], 0.6, pia_style_control.colour);
-        for (pia_index i = 0; figure->info.control[0] <= MOST_CONTROL_MARKS && i < figure->info.control[0]; i++)
+        for (pia_index i = 0; figure->info.control[0] <= PIA_MOST_MARKS && i < figure->info.control[0]; i++)
             pia_piece_add(pieces, (const double *const[]){figure->control + 3 * i}, 1, 1.5, 0, pia_style_control.colour);
     }
     add_comb(pieces, scene, figure);
     add_polyline(pieces, figure->at, figure->samples[0].count, strong, pia_curve_colour(scene, index));
-    if (scene->options.knots) add_knots(pieces, figure);
+    if (pia_knots_shown(scene, figure)) add_knots(pieces, figure);
 }
 
 /* Where a curve stands over the floor: without it a line in space cannot be read. */
@@ -257,7 +257,8 @@ static void curve_legend(const pia_scene *scene, pia_legend *legend)
 {
     pia_legend_add(legend, (pia_pen){pia_curve_colour(scene, 0), strong, 0}, PIA_MARK_NONE, pia_style_text, "curve");
     pia_legend_add(legend, (pia_pen){pia_colour_grey(0.8), 1, 0}, PIA_MARK_NONE, pia_style_text, "its shadow");
-    if (scene->options.knots) pia_legend_add(legend, (pia_pen){.width = 0}, PIA_MARK_DISC, pia_style_text, "knots");
+    if (pia_knots_shown(scene, &scene->figure[0]))
+        pia_legend_add(legend, (pia_pen){.width = 0}, PIA_MARK_DISC, pia_style_text, "knots");
 }
 
 void pia_space_legend(const pia_scene *scene, pia_legend *legend)

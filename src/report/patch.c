@@ -99,16 +99,9 @@ static void add_cells(pia_pieces *pieces, const painter *p)
     }
 }
 
-static pia_index count_knot_lines(const pia_samples *samples)
-{
-    pia_index count = 0;
-    for (pia_index i = 0; i < samples->count; i++) count += samples->at_knot[i];
-    return count;
-}
-
 pia_index pia_patch_knot_stride(const pia_figure *surface, int direction)
 {
-    return 1 + (count_knot_lines(&surface->samples[direction]) - 2) / MOST_KNOT_LINES;
+    return 1 + (pia_samples_knots(&surface->samples[direction]) - 2) / MOST_KNOT_LINES;
 }
 
 /* Lines of constant parameter in `direction`, at its knots; the border always. */
@@ -181,5 +174,5 @@ pia_status pia_patch_add(pia_pieces *pieces, const pia_scene *scene, pia_index i
     }
     pia_give(scene->context, p.map.value);
     pia_give(scene->context, p.map.known);
-    return status != PIA_OK ? status : pieces->failed ? PIA_E_MEMORY : PIA_OK;
+    return status;
 }

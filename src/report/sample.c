@@ -53,6 +53,13 @@ pia_status pia_samples_take(pia_context *context, const pia_model *model, int di
     return PIA_OK;
 }
 
+pia_index pia_samples_knots(const pia_samples *samples)
+{
+    pia_index count = 0;
+    for (pia_index i = 0; i < samples->count; i++) count += samples->at_knot[i];
+    return count;
+}
+
 void pia_samples_give(pia_context *context, pia_samples *samples)
 {
     pia_give(context, samples->parameter);

@@ -15,6 +15,8 @@ typedef struct pia_samples {
  * neighbours are taken as one. */
 pia_status pia_samples_take(pia_context *context, const pia_model *model, int direction, pia_index wanted, pia_index most,
                             pia_samples *out);
+/* Samples that lie at knots, ends included. */
+pia_index pia_samples_knots(const pia_samples *samples);
 void pia_samples_give(pia_context *context, pia_samples *samples);
 
 /* One tooth of a curvature comb. */
