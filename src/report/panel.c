@@ -8,7 +8,7 @@
 
 double pia_dot_radius(pia_index count)
 {
-    return fmin(2, fmax(1.1, 2.6 - 0.4 * log10((double)count + 1)));
+    return fmin(2, fmax(1, 2.6 - 0.4 * log10((double)count + 1)));
 }
 
 /* A lone curve under coloured data is drawn dark, so that only one thing speaks by colour. */
@@ -34,19 +34,73 @@ void pia_comb_legend(const pia_scene *scene, pia_legend *legend)
                    scene->comb_scale * most > scene->comb_longest ? " (cut)" : "");
 }
 
-void pia_worst_draw(pia_canvas *canvas, const pia_scene *scene, pia_spot spot, const pia_box *page)
+pia_index pia_most_spots(const pia_scene *scene)
+{
+    pia_index most = scene->point_count;
+    for (pia_index f = 0; f < scene->figure_count; f++) {
+        const pia_figure *figure = &scene->figure[f];
+        if (figure->samples[0].count > most) most = figure->samples[0].count;
+        if (figure->info.control[0] > most) most = figure->info.control[0];
+        if (figure->tooth_count > most) most = figure->tooth_count;
+    }
+    return most;
+}
+
+double pia_curve_width(const pia_figure *curve)
+{
+    return curve->info.control[0] > PIA_MOST_MARKS ? 0.9 : 1.5;
+}
+
+/* How many spots a box covers. */
+static pia_index covered(const pia_spot *spots, pia_index count, const pia_box *box)
+{
+    pia_index inside = 0;
+    for (pia_index i = 0; i < count; i++)
+        inside += spots[i].x > box->left && spots[i].x < box->right && spots[i].y > box->top && spots[i].y < box->bottom;
+    return inside;
+}
+
+/* A plate of this width about `spot`, number 0 to 7: four corners, near and further away; moved into the page across. */
+static pia_box plate_at(pia_spot spot, double width, int number, const pia_box *page)
+{
+    double side = number & 1 ? -1 : 1, down = number & 2 ? -1 : 1, away = number & 4 ? 34 : 14;
+    double left = spot.x + 14 * side - (side < 0 ? width : 0), middle = spot.y + away * down;
+    left = fmax(page->left, fmin(left, page->right - width));
+    return (pia_box){left, middle - 7, left + width, middle + 7};
+}
+
+/* The plate inside the page that hides least. */
+static pia_box choose_plate(const pia_scene *scene, const pia_spot *spots, double width, const pia_box *page)
+{
+    pia_spot spot = spots[scene->worst];
+    pia_box best = plate_at(spot, width, 0, page);
+    pia_index least = scene->point_count + 1;
+    for (int number = 0; number < 8; number++) {
+        pia_box plate = plate_at(spot, width, number, page);
+        pia_index hidden = covered(spots, scene->point_count, &plate);
+        if (plate.top < page->top || plate.bottom > page->bottom || hidden >= least) continue;
+        least = hidden;
+        best = plate;
+    }
+    return best;
+}
+
+void pia_worst_draw(pia_canvas *canvas, const pia_scene *scene, const pia_spot *spots, const pia_box *page)
 {
     char size[PIA_LABEL_SIZE], text[2 * PIA_LABEL_SIZE];
+    if (scene->deviation == NULL || !(scene->largest > 0)) return;
     pia_label_significant(scene->largest, 3, size);
     snprintf(text, sizeof text, "max %.40s at point %lld", size, (long long)scene->worst);
-    double side = spot.x < 0.5 * (page->left + page->right) ? 1 : -1, down = spot.y < 0.5 * (page->top + page->bottom) ? 1 : -1;
-    pia_spot end = {spot.x + 14 * side, spot.y + 14 * down};
     pia_type type = {.size = PIA_TEXT_SIZE, .colour = pia_style_warning, .down = 0.5};
-    double width = canvas->text_width(canvas, text, type) + 6, left = side > 0 ? end.x : end.x - width;
-    left = fmax(page->left, fmin(left, page->right - width));
-    const pia_spot plate[4] = {{left, end.y - 7}, {left + width, end.y - 7}, {left + width, end.y + 7}, {left, end.y + 7}};
-    canvas->line(canvas, (pia_spot[]){{spot.x + 3.5 * side, spot.y + 3.5 * down}, end}, 2, (pia_pen){pia_style_warning, 0.7, 0});
+    pia_spot spot = spots[scene->worst];
+    pia_box plate = choose_plate(scene, spots, canvas->text_width(canvas, text, type) + 6, page);
+    double middle = 0.5 * (plate.top + plate.bottom), end = fmax(plate.left, fmin(spot.x, plate.right));
+    double length = hypot(end - spot.x, middle - spot.y);
+    const pia_spot corner[4] = {
+        {plate.left, plate.top}, {plate.right, plate.top}, {plate.right, plate.bottom}, {plate.left, plate.bottom}};
+    const pia_spot leader[2] = {{spot.x + 5 * (end - spot.x) / length, spot.y + 5 * (middle - spot.y) / length}, {end, middle}};
+    canvas->line(canvas, leader, 2, (pia_pen){pia_style_warning, 0.7, 0});
     canvas->disc(canvas, spot, 5, pia_colour_faded(pia_style_paper, 0), (pia_pen){pia_style_warning, 1.2, 0});
-    canvas->polygon(canvas, plate, 4, pia_colour_faded(pia_style_paper, 0.82), (pia_pen){.width = 0});
-    canvas->text(canvas, (pia_spot){left + 3, end.y}, text, type);
+    canvas->polygon(canvas, corner, 4, pia_colour_faded(pia_style_paper, 0.82), (pia_pen){.width = 0});
+    canvas->text(canvas, (pia_spot){plate.left + 3, middle}, text, type);
 }

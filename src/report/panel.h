@@ -43,7 +43,14 @@ int pia_knots_shown(const pia_scene *scene, const pia_figure *curve);
 /* Radius of the dots that stand for `count` points. */
 double pia_dot_radius(pia_index count);
 
-/* "max 1.2×10⁻³ at point 17" beside a ring about the worst point, inside `page`. */
-void pia_worst_draw(pia_canvas *canvas, const pia_scene *scene, pia_spot spot, const pia_box *page);
+/* Width of the line of a curve. */
+double pia_curve_width(const pia_figure *curve);
+
+/* Room for the points, samples, control points or teeth of any figure, one at a time. */
+pia_index pia_most_spots(const pia_scene *scene);
+
+/* Where deviations are shown: a ring about the worst of the points, whose places on the page are `spots` [point_count], and
+ * "max 1.2×10⁻³ at point 17" beside it, where it hides least. */
+void pia_worst_draw(pia_canvas *canvas, const pia_scene *scene, const pia_spot *spots, const pia_box *page);
 
 #endif

@@ -6,7 +6,6 @@
 
 #include <math.h>
 
-static const double strong = 1.5;  /* width of curves */
 static const double tick = 6;      /* length of a knot mark */
 static const double stretched = 8; /* extents further apart than this, of a curve that never turns back, get their own scales */
 /* Function graphs and long signals fill the panel; shapes keep their proportions. */
@@ -79,7 +78,7 @@ static void draw_curve(pia_canvas *canvas, const pia_scene *scene, const pia_fra
     pia_index count = figure->samples[0].count;
     spots_of(frame, figure->at, count, spots);
     count = pia_thin_line(spots, count, 0.2);
-    canvas->line(canvas, spots, count, (pia_pen){pia_curve_colour(scene, index), count > 20000 ? 0.5 * strong : strong, 0});
+    canvas->line(canvas, spots, count, (pia_pen){pia_curve_colour(scene, index), pia_curve_width(figure), 0});
 }
 
 /* Knots as short strokes across the curve; of knots closer than two points on paper only the first is drawn. */
@@ -120,18 +119,6 @@ static pia_status draw_points(pia_canvas *canvas, const pia_scene *scene, const 
     return status;
 }
 
-static pia_index most_spots(const pia_scene *scene)
-{
-    pia_index most = scene->point_count;
-    for (pia_index f = 0; f < scene->figure_count; f++) {
-        const pia_figure *figure = &scene->figure[f];
-        if (figure->samples[0].count > most) most = figure->samples[0].count;
-        if (figure->info.control[0] > most) most = figure->info.control[0];
-        if (figure->tooth_count > most) most = figure->tooth_count;
-    }
-    return most;
-}
-
 static pia_status draw_layers(pia_canvas *canvas, const pia_scene *scene, const pia_frame *frame, pia_spot *spots)
 {
     const pia_plot_options *show = &scene->options;
@@ -149,16 +136,14 @@ static pia_status draw_layers(pia_canvas *canvas, const pia_scene *scene, const 
 pia_status pia_plane_draw(pia_canvas *canvas, const pia_scene *scene, pia_box page)
 {
     pia_frame frame = frame_of(scene, page);
-    pia_spot *spots = pia_take(scene->context, most_spots(scene), sizeof *spots);
+    pia_spot *spots = pia_take(scene->context, pia_most_spots(scene), sizeof *spots);
     if (spots == NULL) return PIA_E_MEMORY;
     pia_frame_draw(canvas, &frame);
     canvas->clip(canvas, &frame.page);
     pia_status status = draw_layers(canvas, scene, &frame, spots);
     canvas->clip(canvas, NULL);
-    if (scene->deviation != NULL && scene->largest > 0) {
-        const double *at = scene->point + 3 * scene->worst;
-        pia_worst_draw(canvas, scene, pia_frame_spot(&frame, at[0], at[1]), &frame.page);
-    }
+    spots_of(&frame, scene->point, scene->point_count, spots);
+    pia_worst_draw(canvas, scene, spots, &frame.page);
     pia_give(scene->context, spots);
     return status;
 }
@@ -171,9 +156,10 @@ void pia_plane_legend(const pia_scene *scene, pia_legend *legend)
         pia_legend_add(legend, none, PIA_MARK_DISC, scene->deviation != NULL ? pia_ramp_colour(PIA_RAMP_ERROR, 0.4) : pia_style_data,
                        scene->deviation != NULL ? "data, by deviation" : "data");
     if (scene->figure_count == 1)
-        pia_legend_add(legend, (pia_pen){pia_curve_colour(scene, 0), strong, 0}, PIA_MARK_NONE, pia_style_text, "curve");
+        pia_legend_add(legend, (pia_pen){pia_curve_colour(scene, 0), pia_curve_width(first), 0}, PIA_MARK_NONE, pia_style_text,
+                       "curve");
     for (pia_index f = 0; scene->figure_count > 1 && f < scene->figure_count && f < 6; f++)
-        pia_legend_add(legend, (pia_pen){pia_curve_colour(scene, f), strong, 0}, PIA_MARK_NONE, pia_style_text,
+        pia_legend_add(legend, (pia_pen){pia_curve_colour(scene, f), pia_curve_width(first), 0}, PIA_MARK_NONE, pia_style_text,
                        f == 5 && scene->figure_count > 6 ? "curve %lld and more" : "curve %lld", (long long)f + 1);
     if (pia_knots_shown(scene, first)) pia_legend_add(legend, none, PIA_MARK_TICK, pia_style_text, "knots");
     if (scene->options.control)

@@ -8,8 +8,7 @@
 #include <math.h>
 #include <stdio.h>
 
-enum { MOST_NET = 4000, MOST_DOTS_ON_SURFACE = 3000 };
-static const double strong = 1.6;
+enum { MOST_NET = 600, MOST_DOTS_ON_SURFACE = 3000 };
 
 static int all_terrain(const pia_scene *scene)
 {
@@ -72,7 +71,7 @@ static pia_paint paint_of(const pia_scene *scene)
 
 static int net_shown(const pia_scene *scene, const pia_figure *figure)
 {
-    return scene->options.control && figure->info.control[0] * figure->info.control[1] <= MOST_NET;
+    return scene->options.control && (figure->info.directions == 1 || figure->info.control[0] * figure->info.control[1] <= MOST_NET);
 }
 
 /* A polyline in strokes of at least one point on paper. */
@@ -121,7 +120,7 @@ static void add_curve(pia_pieces *pieces, const pia_scene *scene, pia_index inde
             pia_piece_add(pieces, (const double *const[]){figure->control + 3 * i}, 1, 1.5, 0, pia_style_control.colour);
     }
     add_comb(pieces, scene, figure);
-    add_polyline(pieces, figure->at, figure->samples[0].count, strong, pia_curve_colour(scene, index));
+    add_polyline(pieces, figure->at, figure->samples[0].count, pia_curve_width(figure), pia_curve_colour(scene, index));
     if (pia_knots_shown(scene, figure)) add_knots(pieces, figure);
 }
 
@@ -135,22 +134,19 @@ static void draw_shadow(pia_canvas *canvas, const pia_view *view, const pia_figu
     canvas->line(canvas, spots, pia_thin_line(spots, curve->samples[0].count, 0.25), (pia_pen){pia_colour_grey(0.8), 1, 0});
 }
 
-static pia_status draw_shadows(pia_canvas *canvas, const pia_view *view, const pia_scene *scene)
+static void project_points(const pia_view *view, const pia_scene *scene, pia_spot *spots)
 {
-    pia_index most = 0;
-    for (pia_index f = 0; f < scene->figure_count; f++)
-        if (scene->figure[f].samples[0].count > most) most = scene->figure[f].samples[0].count;
-    pia_spot *spots = pia_take(scene->context, most, sizeof *spots);
-    if (spots == NULL) return PIA_E_MEMORY;
-    for (pia_index f = 0; f < scene->figure_count; f++)
-        if (scene->figure[f].info.directions == 1) draw_shadow(canvas, view, &scene->figure[f], spots);
-    pia_give(scene->context, spots);
-    return PIA_OK;
+    for (pia_index i = 0; i < scene->point_count; i++) spots[i] = pia_view_spot(view, scene->point + 3 * i);
+}
+
+/* On a surface many dots would hide its colours. */
+static int dots_shown(const pia_scene *scene)
+{
+    return scene->point_count > 0 && (!scene->surface || scene->point_count <= MOST_DOTS_ON_SURFACE);
 }
 
 static void add_dots(pia_pieces *pieces, const pia_scene *scene, const pia_index *order, pia_index count)
 {
-    if (scene->surface && count > MOST_DOTS_ON_SURFACE) return;
     double radius = scene->surface ? 0.8 : pia_dot_radius(scene->point_count);
     int coloured = scene->deviation != NULL && !scene->surface;
     double lift = radius / pieces->view->scale;
@@ -161,23 +157,19 @@ static void add_dots(pia_pieces *pieces, const pia_scene *scene, const pia_index
     }
 }
 
-static pia_status add_points(pia_pieces *pieces, const pia_scene *scene, const pia_box *page)
+static pia_status add_points(pia_pieces *pieces, const pia_scene *scene, const pia_box *page, pia_spot *spots)
 {
     pia_index count = scene->point_count, kept = 0;
-    pia_spot *spots = pia_take(scene->context, count, sizeof *spots);
     pia_index *order = pia_take(scene->context, count, sizeof *order);
-    pia_status status = PIA_E_MEMORY;
-    if (spots != NULL && order != NULL) {
-        for (pia_index i = 0; i < count; i++) spots[i] = pia_view_spot(pieces->view, scene->point + 3 * i);
-        status = pia_thin_dots(scene->context, spots, scene->deviation, count, page, count > 5000 ? 2 : 0.5, order, &kept);
-    }
+    if (order == NULL) return PIA_E_MEMORY;
+    project_points(pieces->view, scene, spots);
+    pia_status status = pia_thin_dots(scene->context, spots, scene->deviation, count, page, count > 5000 ? 2 : 0.5, order, &kept);
     if (status == PIA_OK) add_dots(pieces, scene, order, kept);
-    pia_give(scene->context, spots);
     pia_give(scene->context, order);
     return status;
 }
 
-static pia_status add_all(pia_pieces *pieces, const pia_scene *scene, const pia_box *page)
+static pia_status add_all(pia_pieces *pieces, const pia_scene *scene, const pia_box *page, pia_spot *spots)
 {
     pia_status status = PIA_OK;
     for (pia_index f = 0; status == PIA_OK && f < scene->figure_count; f++) {
@@ -186,7 +178,7 @@ static pia_status add_all(pia_pieces *pieces, const pia_scene *scene, const pia_
         else
             status = pia_patch_add(pieces, scene, f, paint_of(scene), net_shown(scene, &scene->figure[f]));
     }
-    if (status == PIA_OK && scene->point_count > 0) status = add_points(pieces, scene, page);
+    if (status == PIA_OK && dots_shown(scene)) status = add_points(pieces, scene, page, spots);
     return status == PIA_OK && pieces->failed
                ? pia_fail(scene->context, PIA_E_MEMORY, "out of memory for %lld pieces of a picture", (long long)pieces->count)
                : status;
@@ -212,15 +204,19 @@ pia_status pia_space_draw(pia_canvas *canvas, const pia_scene *scene, pia_box pa
 {
     pia_view view = view_of(scene);
     pia_view_fit(&view, &page);
+    pia_spot *spots = pia_take(scene->context, pia_most_spots(scene), sizeof *spots);
+    if (spots == NULL) return PIA_E_MEMORY;
     pia_pieces pieces = {.memory = pia_memory_of(scene->context), .view = &view};
     int values = scene->figure[0].info.dim == 1 && scene->figure[0].info.directions == 2;
     pia_view_draw_box(canvas, &view, values ? (const char *const[]){"u", "v", "value"} : (const char *const[]){"x", "y", "z"});
-    pia_status status = view.toward[2] > 0 ? draw_shadows(canvas, &view, scene) : PIA_OK;
-    if (status == PIA_OK) status = add_all(&pieces, scene, &page);
+    for (pia_index f = 0; view.toward[2] > 0 && f < scene->figure_count; f++)
+        if (scene->figure[f].info.directions == 1) draw_shadow(canvas, &view, &scene->figure[f], spots);
+    pia_status status = add_all(&pieces, scene, &page, spots);
     if (status == PIA_OK) pia_pieces_draw(canvas, &pieces);
     pia_pieces_clear(&pieces);
-    if (scene->deviation != NULL && scene->largest > 0)
-        pia_worst_draw(canvas, scene, pia_view_spot(&view, scene->point + 3 * scene->worst), &page);
+    project_points(&view, scene, spots);
+    pia_worst_draw(canvas, scene, spots, &page);
+    pia_give(scene->context, spots);
     draw_note(canvas, &view, &page);
     return status;
 }
@@ -255,7 +251,8 @@ static void surface_legend(const pia_scene *scene, pia_legend *legend)
 
 static void curve_legend(const pia_scene *scene, pia_legend *legend)
 {
-    pia_legend_add(legend, (pia_pen){pia_curve_colour(scene, 0), strong, 0}, PIA_MARK_NONE, pia_style_text, "curve");
+    pia_legend_add(legend, (pia_pen){pia_curve_colour(scene, 0), pia_curve_width(&scene->figure[0]), 0}, PIA_MARK_NONE, pia_style_text,
+                   "curve");
     pia_legend_add(legend, (pia_pen){pia_colour_grey(0.8), 1, 0}, PIA_MARK_NONE, pia_style_text, "its shadow");
     if (pia_knots_shown(scene, &scene->figure[0]))
         pia_legend_add(legend, (pia_pen){.width = 0}, PIA_MARK_DISC, pia_style_text, "knots");
@@ -264,7 +261,7 @@ static void curve_legend(const pia_scene *scene, pia_legend *legend)
 void pia_space_legend(const pia_scene *scene, pia_legend *legend)
 {
     int coloured = scene->deviation != NULL && !scene->surface;
-    if (scene->point_count > 0)
+    if (dots_shown(scene))
         pia_legend_add(legend, (pia_pen){.width = 0}, PIA_MARK_DISC, coloured ? pia_ramp_colour(PIA_RAMP_ERROR, 0.4) : pia_style_data,
                        coloured ? "data, by deviation" : "data");
     if (scene->surface)
