@@ -1,7 +1,10 @@
 #include "scene.h"
 
+#include "deviation.h"
+
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
 static void cover(pia_scene *scene, const double *at, pia_index count)
 {
@@ -155,17 +158,16 @@ static pia_status compare_with_models(pia_scene *scene, const double *points, do
     return PIA_OK;
 }
 
-static void summarise(pia_scene *scene)
+/* scratch [point_count]. */
+static pia_status summarise(pia_scene *scene, double *scratch)
 {
-    double squares = 0;
-    for (pia_index i = 0; i < scene->point_count; i++)
-        if (scene->deviation[i] > scene->deviation[scene->worst]) scene->worst = i;
-    scene->largest = scene->deviation[scene->worst];
-    for (pia_index i = 0; scene->largest > 0 && i < scene->point_count; i++) {
-        double share = scene->deviation[i] / scene->largest;
-        squares += share * share;
-    }
-    scene->rms = scene->largest * sqrt(squares / (double)scene->point_count);
+    pia_deviation summary = {.struct_size = sizeof summary};
+    memcpy(scratch, scene->deviation, (size_t)scene->point_count * sizeof *scratch);
+    pia_status status = pia_deviation_summarize(scene->context, scratch, scene->point_count, &summary);
+    scene->largest = summary.max_error;
+    scene->rms = summary.rms_error;
+    scene->worst = summary.max_error_index;
+    return status;
 }
 
 static pia_status take_deviations(pia_scene *scene, const double *points)
@@ -179,9 +181,9 @@ static pia_status take_deviations(pia_scene *scene, const double *points)
     pia_status status = PIA_E_MEMORY;
     if (scene->deviation != NULL && scene->parameter != NULL && scene->owner != NULL && parameter != NULL && distance != NULL)
         status = compare_with_models(scene, points, parameter, distance);
+    if (status == PIA_OK) status = summarise(scene, distance);
     pia_give(context, parameter);
     pia_give(context, distance);
-    if (status == PIA_OK) summarise(scene);
     return status;
 }
 
