@@ -4,14 +4,17 @@
 #include "method.h"
 #include "normalise.h"
 #include "product.h"
+#include "vectors.h"
 
 #include <string.h>
 
+enum { GRADIENT, SEARCH, IMAGE, VECTORS };
+
 typedef struct cg {
     pia_product product;
-    double *preconditioner;            /* [cols] */
-    double *gradient, *search, *image; /* g, p, H p, [cols x dim] */
-    double gamma[PIA_MAX_DIM];         /* (g, z) of the step before; 0: none */
+    double *preconditioner;    /* [cols] */
+    double *vector[VECTORS];   /* g, p, H p */
+    double gamma[PIA_MAX_DIM]; /* (g, z) of the step before; 0: none */
 } cg;
 
 static pia_status begin(pia_iterate *iterate, const pia_values *values, void *state)
@@ -19,16 +22,13 @@ static pia_status begin(pia_iterate *iterate, const pia_values *values, void *st
     (void)values;
     cg *c = state;
     pia_context *context = iterate->context;
-    pia_index cols = iterate->op->cols, size = cols * iterate->dim;
+    pia_index cols = iterate->op->cols;
     pia_status status = pia_product_open(iterate, &c->product);
     if (status != PIA_OK) return status;
     c->preconditioner = pia_take(context, cols, sizeof(double));
-    c->gradient = pia_take(context, size, sizeof(double));
-    c->search = pia_take_zero(context, size, sizeof(double));
-    c->image = pia_take(context, size, sizeof(double));
-    if (c->preconditioner == NULL || c->gradient == NULL || c->search == NULL || c->image == NULL)
-        return pia_take_status(context, size, sizeof(double));
-    status = pia_product_diagonal(&c->product, c->preconditioner);
+    if (c->preconditioner == NULL) return pia_take_status(context, cols, sizeof(double));
+    status = pia_vectors_take(iterate, VECTORS, c->vector);
+    if (status == PIA_OK) status = pia_product_diagonal(iterate, c->preconditioner);
     if (status == PIA_OK) pia_reciprocals(cols, c->preconditioner);
     return status;
 }
@@ -60,18 +60,18 @@ static pia_status adjust(pia_iterate *iterate, void *state)
     cg *c = state;
     int dim = iterate->dim;
     double gamma[PIA_MAX_DIM] = {0}, factor[PIA_MAX_DIM], curvature[PIA_MAX_DIM], *z = iterate->adjust;
-    pia_iterate_gradient(iterate, c->gradient);
-    pia_scale_rows(iterate, c->preconditioner, c->gradient, z);
-    dot_components(iterate, c->gradient, z, gamma);
+    pia_iterate_gradient(iterate, c->vector[GRADIENT]);
+    pia_vectors_scale(iterate, c->preconditioner, c->vector[GRADIENT], z);
+    dot_components(iterate, c->vector[GRADIENT], z, gamma);
     memcpy(factor, gamma, sizeof gamma);
     divide(dim, factor, c->gamma);
-    combine(iterate, z, factor, c->search);
+    combine(iterate, z, factor, c->vector[SEARCH]);
     memcpy(c->gamma, gamma, sizeof gamma);
-    pia_product_apply(&c->product, c->search, dim, c->image);
-    dot_components(iterate, c->search, c->image, curvature);
+    pia_product_apply(&c->product, c->vector[SEARCH], dim, c->vector[IMAGE]);
+    dot_components(iterate, c->vector[SEARCH], c->vector[IMAGE], curvature);
     divide(dim, gamma, curvature);
     for (pia_index k = 0; k < iterate->op->cols; k++)
-        for (int d = 0; d < dim; d++) iterate->adjust[k * dim + d] = gamma[d] * c->search[k * dim + d];
+        for (int d = 0; d < dim; d++) iterate->adjust[k * dim + d] = gamma[d] * c->vector[SEARCH][k * dim + d];
     return PIA_OK;
 }
 
@@ -80,15 +80,13 @@ static void end(pia_iterate *iterate, void *state)
     cg *c = state;
     pia_product_close(&c->product);
     pia_give(iterate->context, c->preconditioner);
-    pia_give(iterate->context, c->gradient);
-    pia_give(iterate->context, c->search);
-    pia_give(iterate->context, c->image);
+    pia_give(iterate->context, c->vector[0]);
 }
 
 static void history(pia_iterate *iterate, void *state, void (*visit)(void *, const char *, double *, pia_index), void *user)
 {
     cg *c = state;
-    visit(user, "search", c->search, iterate->op->cols * iterate->dim);
+    visit(user, "search", c->vector[SEARCH], iterate->op->cols * iterate->dim);
     visit(user, "gamma", c->gamma, PIA_MAX_DIM);
 }
 

@@ -2,6 +2,7 @@
  * every D_i a weighted mean of residuals; it converges where the scalar step, its smallest value, takes hundreds of times longer. */
 #include "method.h"
 #include "normalise.h"
+#include "vectors.h"
 
 enum { STEP, COLUMN = 0, SCALAR = 1 };
 
@@ -28,7 +29,7 @@ static pia_status adjust(pia_iterate *iterate, void *state)
 {
     const lspia *l = state;
     pia_iterate_gradient(iterate, iterate->adjust);
-    pia_scale_rows(iterate, l->step, iterate->adjust, iterate->adjust);
+    pia_vectors_scale(iterate, l->step, iterate->adjust, iterate->adjust);
     return PIA_OK;
 }
 

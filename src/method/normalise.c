@@ -31,13 +31,6 @@ void pia_reciprocals(pia_index count, double *sums)
     for (pia_index c = 0; c < count; c++) sums[c] = sums[c] > 0 ? 1 / sums[c] : 0;
 }
 
-void pia_scale_rows(const pia_iterate *iterate, const double *factor, const double *x, double *y)
-{
-    int dim = iterate->dim;
-    for (pia_index c = 0; c < iterate->op->cols; c++)
-        for (int d = 0; d < dim; d++) y[c * dim + d] = factor[c] * x[c * dim + d];
-}
-
 double pia_largest(pia_index count, const double *values)
 {
     double largest = 0;

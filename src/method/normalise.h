@@ -11,8 +11,7 @@ pia_status pia_column_sums(const pia_iterate *iterate, double *sums);
 
 /* 1 / sums in place, 0 where the sum is 0: unknowns without data stay. */
 void pia_reciprocals(pia_index count, double *sums);
-/* y [cols x dim] = diag(factor [cols]) x. x and y may be the same. */
-void pia_scale_rows(const pia_iterate *iterate, const double *factor, const double *x, double *y);
+/* 0 without values. */
 double pia_largest(pia_index count, const double *values);
 
 #endif

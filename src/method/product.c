@@ -42,9 +42,8 @@ void pia_product_apply(const pia_product *product, const double *x, int dim, dou
     pia_op_gather(iterate->op, product->rows, iterate->op->weights, dim, y);
 }
 
-pia_status pia_product_diagonal(const pia_product *product, double *out)
+pia_status pia_product_diagonal(const pia_iterate *iterate, double *out)
 {
-    const pia_iterate *iterate = product->iterate;
     if (iterate->normal == NULL) return pia_column_sums(iterate, out);
     memcpy(out, iterate->normal->diagonal, (size_t)iterate->op->cols * sizeof *out);
     return PIA_OK;

@@ -16,6 +16,6 @@ void pia_product_close(pia_product *product);
 void pia_product_apply(const pia_product *product, const double *x, int dim, double *y);
 
 /* Diagonal of H, or, where no normal form tells it, the row sums that bound it: [cols]. Errors: PIA_E_MEMORY. */
-pia_status pia_product_diagonal(const pia_product *product, double *out);
+pia_status pia_product_diagonal(const pia_iterate *iterate, double *out);
 
 #endif
