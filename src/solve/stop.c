@@ -1,6 +1,6 @@
 #include "stop.h"
 
-enum { PATIENCE = 400 }; /* iterations without a thousandth of progress before a rows method counts as stalled */
+enum { PATIENCE = 400 }; /* iterations without a thousandth of progress before an interpolation counts as stalled */
 
 int pia_stop_needs_errors(const pia_solve *solve)
 {
@@ -27,7 +27,8 @@ pia_stop pia_stop_after(const pia_solve *solve)
     if (rules->tolerance > 0 && iterate->errors_known && iterate->errors.max <= rules->tolerance) return PIA_STOP_TOLERANCE;
     if (rules->gradient > 0 && iterate->relative_gradient <= rules->gradient) return PIA_STOP_GRADIENT;
     if (iterate->stalled) return PIA_STOP_STALLED;
-    if (rules->change > 0 && iterate->errors_known && iterate->iteration - solve->best_iteration >= PATIENCE) return PIA_STOP_STALLED;
+    if (iterate->square && rules->change > 0 && iterate->errors_known && iterate->iteration - solve->best_iteration >= PATIENCE)
+        return PIA_STOP_STALLED;
     if (rules->change > 0 && iterate->adjust_max <= rules->change) return PIA_STOP_CHANGE;
     return PIA_STOP_NONE;
 }

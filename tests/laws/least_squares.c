@@ -229,6 +229,9 @@ static void grids_with_weights_and_holes_have_the_same_limit(void **state)
     (void)state;
     pia_context *context = context_with(1);
     problem p = problem_make(PIA_GRID, 2, 0, 2, 18, 6);
+    double parameters[36];
+    for (int i = 0; i < 36; i++) parameters[i] = i % 18 / 17.0;
+    p.data.parameters = parameters;
     p.data.weights = p.weights;
     double *limit = reference(context, &p);
     check_limits(context, &p, limit, 72, "weighted grid");
