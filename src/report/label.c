@@ -3,7 +3,6 @@
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
-#include <string.h>
 
 static const char minus[] = "\u2212";
 
@@ -31,8 +30,9 @@ void pia_label_power(int exponent, char text[PIA_LABEL_SIZE])
                                          "\u2075", "\u2076", "\u2077", "\u2078", "\u2079"};
     char digits[16];
     snprintf(digits, sizeof digits, "%d", abs(exponent));
-    strcpy(text, exponent < 0 ? "10\u207b" : "10");
-    for (const char *d = digits; *d != '\0'; d++) strcat(text, raised[*d - '0']);
+    int length = snprintf(text, PIA_LABEL_SIZE, exponent < 0 ? "10\u207b" : "10");
+    for (const char *d = digits; *d != '\0'; d++)
+        length += snprintf(text + length, (size_t)(PIA_LABEL_SIZE - length), "%s", raised[*d - '0']);
 }
 
 /* The digits of |value| as an integer of `digits` figures, and the exponent of the first one. */
@@ -40,9 +40,9 @@ static long long leading_digits(double value, int digits, int *exponent)
 {
     double size = fabs(value);
     *exponent = (int)floor(log10(size));
-    int shift = digits - 1 - *exponent;
+    int shift = digits - 1 - *exponent, half = shift / 2;
     /* In two factors, as 10^shift may overflow where the product does not. */
-    long long figures = llround(size * pow(10, shift / 2) * pow(10, shift - shift / 2));
+    long long figures = llround(size * pow(10, half) * pow(10, shift - half));
     if (figures < ten_to(digits)) return figures;
     ++*exponent;
     return figures / 10;
@@ -51,7 +51,7 @@ static long long leading_digits(double value, int digits, int *exponent)
 void pia_label_significant(double value, int digits, char text[PIA_LABEL_SIZE])
 {
     if (!isfinite(value) || value == 0) {
-        strcpy(text, value == 0 ? "0" : "not finite");
+        snprintf(text, PIA_LABEL_SIZE, value == 0 ? "0" : "not finite");
         return;
     }
     int exponent;
@@ -67,8 +67,8 @@ void pia_label_significant(double value, int digits, char text[PIA_LABEL_SIZE])
                         decimals > 0 ? decimals : 0, text);
         return;
     }
-    char power[PIA_LABEL_SIZE];
-    pia_label_fixed(signed_figures / (double)ten_to(digits - 1), digits - 1, text);
+    char mantissa[PIA_LABEL_SIZE], power[PIA_LABEL_SIZE];
+    pia_label_fixed(signed_figures / (double)ten_to(digits - 1), digits - 1, mantissa);
     pia_label_power(exponent, power);
-    strcat(strcat(text, "\u00d7"), power);
+    snprintf(text, PIA_LABEL_SIZE, "%.30s\u00d7%.30s", mantissa, power);
 }

@@ -60,10 +60,11 @@ static pia_index covered(const pia_spot *spots, pia_index count, const pia_box *
     return inside;
 }
 
-/* A plate of this width about `spot`, number 0 to 7: four corners, near and further away; moved into the page across. */
+/* A plate of this width about `spot`, number 0 to 11: four corners, near, further and far away; moved into the page across. */
 static pia_box plate_at(pia_spot spot, double width, int number, const pia_box *page)
 {
-    double side = number & 1 ? -1 : 1, down = number & 2 ? -1 : 1, away = number & 4 ? 34 : 14;
+    double side = number & 1 ? -1 : 1, down = number & 2 ? -1 : 1;
+    int away = 14 + number / 4 * 20;
     double left = spot.x + 14 * side - (side < 0 ? width : 0), middle = spot.y + away * down;
     left = fmax(page->left, fmin(left, page->right - width));
     return (pia_box){left, middle - 7, left + width, middle + 7};
@@ -75,7 +76,7 @@ static pia_box choose_plate(const pia_scene *scene, const pia_spot *spots, doubl
     pia_spot spot = spots[scene->worst];
     pia_box best = plate_at(spot, width, 0, page);
     pia_index least = scene->point_count + 1;
-    for (int number = 0; number < 8; number++) {
+    for (int number = 0; number < 12; number++) {
         pia_box plate = plate_at(spot, width, number, page);
         pia_index hidden = covered(spots, scene->point_count, &plate);
         if (plate.top < page->top || plate.bottom > page->bottom || hidden >= least) continue;

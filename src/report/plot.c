@@ -9,7 +9,7 @@
 #include <string.h>
 #include <strings.h>
 
-enum { USUAL_WIDTH = 640, LEAST_SIDE = 100, MOST_SIDE = 20000, TRACE_HEIGHT = 170, HEAD_ROW = 16 };
+enum { USUAL_WIDTH = 640, LEAST_SIDE = 100, LEAST_PANEL = 25, MOST_SIDE = 20000, TRACE_HEIGHT = 170, HEAD_ROW = 16 };
 enum { VECTOR_CELLS = 90, PIXEL_CELLS = 200 }; /* samples a direction of a surface */
 static const double usual_pixels = 2;          /* a point, of a PNG */
 
@@ -129,7 +129,7 @@ static pia_status draw_page(pia_canvas *canvas, const pia_scene *scene)
         main.bottom -= fmin(TRACE_HEIGHT, 0.4 * (main.bottom - main.top));
         below.top = main.bottom + 10;
     }
-    if (main.bottom - main.top < LEAST_SIDE / 4 + PIA_FRAME_BELOW) return PIA_OK; /* a stamp: only its head fits */
+    if (main.bottom - main.top < LEAST_PANEL + PIA_FRAME_BELOW) return PIA_OK; /* a stamp: only its head fits */
     if (shade.shown) {
         pia_box scale = {main.right + 16, main.top, main.right + 16 + PIA_SCALE_WIDTH, main.bottom - PIA_FRAME_BELOW};
         pia_scale_draw(canvas, &scale, shade.ramp, shade.low, shade.high, shade.title);

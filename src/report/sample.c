@@ -12,7 +12,7 @@ static pia_index count_spans(const double *knots, int degree, pia_index control)
 {
     pia_index spans = 0;
     for (pia_index i = degree; i < control; i++) spans += knots[i] < knots[i + 1];
-    return spans;
+    return spans > 0 ? spans : 1;
 }
 
 static void fill_samples(const double *knots, int degree, pia_index control, pia_index pieces, pia_index stride, pia_samples *out)
@@ -90,14 +90,13 @@ static pia_status place_all(pia_context *context, const pia_model_info *info, co
     return PIA_OK;
 }
 
-/* The lattice of all pairs of two directions' abscissae, or a copy of the first where there is only one direction. */
-static void cross(const double *first, pia_index first_count, const double *second, pia_index second_count, double *out)
+/* Parameters [first_count x second_count x directions] of the lattice of two directions; a curve has second_count 1. */
+static void cross(int directions, const double *first, pia_index first_count, const double *second, pia_index second_count, double *out)
 {
     for (pia_index i = 0; i < first_count; i++) {
-        if (second == NULL) out[i] = first[i];
-        for (pia_index j = 0; second != NULL && j < second_count; j++) {
-            out[2 * (i * second_count + j)] = first[i];
-            out[2 * (i * second_count + j) + 1] = second[j];
+        for (pia_index j = 0; j < second_count; j++) {
+            *out++ = first[i];
+            if (directions == 2) *out++ = second[j];
         }
     }
 }
@@ -111,7 +110,7 @@ static pia_status sample_shape(pia_context *context, pia_figure *figure)
     figure->at = pia_take(context, count, 3 * sizeof *figure->at);
     pia_status status = PIA_E_MEMORY;
     if (parameter != NULL && value != NULL && figure->at != NULL) {
-        cross(s[0].parameter, s[0].count, s[1].parameter, s[1].count, parameter);
+        cross(figure->info.directions, s[0].parameter, s[0].count, s[1].parameter, s[1].count, parameter);
         status = pia_model_eval(context, figure->model, parameter, count, 0, value);
         if (status == PIA_OK) status = place_all(context, &figure->info, parameter, value, count, figure->info.dim, figure->at);
     }
@@ -130,11 +129,11 @@ static pia_status sample_control(pia_context *context, pia_figure *figure)
     figure->control = pia_take(context, count, 3 * sizeof *figure->control);
     pia_status status = PIA_E_MEMORY;
     if (abscissa != NULL && parameter != NULL && value != NULL && figure->control != NULL) {
-        double *greville[2] = {abscissa, info->directions == 2 ? abscissa + info->control[0] : NULL};
+        double *greville[2] = {abscissa, abscissa + info->control[0]};
         for (int d = 0; d < info->directions; d++)
             for (pia_index i = 0; i < info->control[d]; i++)
                 greville[d][i] = pia_knots_greville(pia_model_knots(figure->model, d), info->degree[d], i);
-        cross(greville[0], info->control[0], greville[1], info->control[1], parameter);
+        cross(info->directions, greville[0], info->control[0], greville[1], info->control[1], parameter);
         pia_model_control(figure->model, value, NULL);
         status = place_all(context, info, parameter, value, count, info->dim, figure->control);
     }
