@@ -128,17 +128,19 @@ static void rotate(void *base, pia_index count, size_t size, pia_index by, void 
     memcpy(bytes + (size_t)(count - by) * size, spare, (size_t)by * size);
 }
 
-/* Closed: the domain of the knots starts near 0, not at it. Rows before it come one period later, at the end. */
+/* Closed: the period that the knots cover starts where they start. Parameters are brought into it, and rows turned so that they rise.
+ */
 pia_status pia_fit_turn(pia_fit *fit, int d)
 {
     double *t = fit->parameter[d], low = fit->knots[d][fit->degree[d]];
-    pia_index lines = fit->count[d], by = 0, late = 0;
-    while (by < lines && t[by] < low) by++;
-    while (late < lines && t[lines - 1 - late] >= low + 1) late++;
-    if (by == lines || late == lines) return pia_fail(fit->context, PIA_E_DATA, "no parameter lies in the period of the closed knots");
-    for (pia_index i = 0; i < by; i++) t[i] += 1;
-    for (pia_index i = lines - late; i < lines; i++) t[i] -= 1;
-    pia_index shift = by > 0 ? by : (lines - late) % lines, other = fit->rows / lines;
+    pia_index lines = fit->count[d], other = fit->rows / lines, shift = 0;
+    for (pia_index i = 0; i < lines; i++) {
+        t[i] -= floor(t[i] - low);
+        if (t[i] >= low + 1) t[i] -= 1;
+        if (t[i] < low) t[i] = low;
+    }
+    for (pia_index i = 1; i < lines && shift == 0; i++)
+        if (t[i] < t[i - 1]) shift = i;
     fit->offset[d] = shift; /* of this turn: interpolation turns once */
     if (shift == 0) return PIA_OK;
     size_t point = (size_t)fit->dim * sizeof(double);

@@ -164,7 +164,7 @@ pia_status pia_fit_parametrize(pia_fit *fit, const pia_data *data)
     } else {
         if (fit->kind == PIA_SCATTERED)
             return pia_fail(fit->context, PIA_E_UNAVAILABLE, "scattered points need parameters; give u,v of every row (--param FILE)");
-        if (fit->square && fit->directions == 1) status = drop_equal_points(fit);
+        if ((fit->square || fit->refining) && fit->directions == 1) status = drop_equal_points(fit);
         if (status == PIA_OK) status = compute(fit);
     }
     for (int d = 0; status == PIA_OK && fit->square && d < fit->directions; d++) status = separate(fit, d);

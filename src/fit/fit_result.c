@@ -12,8 +12,7 @@
 pia_status pia_fit_step(pia_fit *fit, pia_index iterations, pia_report *report)
 {
     if (iterations < 0) return pia_fail(fit->context, PIA_E_ARGUMENT, "%lld iterations are not a count", (long long)iterations);
-    if (fit->refining) {
-        fit->refining = 0;
+    if (fit->refining && fit->solve.stop == PIA_STOP_NONE) {
         pia_status refined = pia_refine_curve(fit);
         return refined == PIA_OK && report != NULL ? pia_fit_report(fit, report) : refined;
     }

@@ -112,20 +112,38 @@ static pia_status grow(pia_fit *fit, int *grown)
     return status == PIA_OK && *grown ? pia_refine_solve(fit) : status;
 }
 
+/* The parameters as placements take them: those of a closed curve in [0, 1), rising. */
+static void unit_parameters(const pia_fit *fit, double *t)
+{
+    pia_index m = fit->rows, by = 0;
+    memcpy(t, fit->parameter[0], (size_t)m * sizeof *t);
+    if (!fit->closed[0]) return;
+    double base = floor(t[0]);
+    while (by < m && fit->parameter[0][by] < base + 1) by++;
+    for (pia_index i = 0; i < m; i++) {
+        pia_index from = (by + i) % m;
+        t[i] = fit->parameter[0][from] - base - (from >= by ? 1 : 0);
+    }
+}
+
 /* Interpolation, where growing ends: every row met, if all parameters differ. */
 static pia_status interpolate(pia_fit *fit, int *possible)
 {
-    const pia_placement *average = pia_place_find("average");
-    pia_place_problem problem = {fit->degree[0], fit->closed[0], fit->rows, fit->parameter[0], fit->rows};
-    *possible = fit->rows > fit->degree[0] && !fit->closed[0];
+    *possible = fit->rows > 2 * fit->degree[0] + 2;
     for (pia_index i = 1; i < fit->rows; i++) *possible &= fit->parameter[0][i] > fit->parameter[0][i - 1];
     if (!*possible) return PIA_OK;
-    double *knots = pia_take(fit->context, fit->rows + fit->degree[0] + 1, sizeof *knots);
-    if (knots == NULL) return PIA_E_MEMORY;
-    pia_status status = average->place(fit->context, &problem, knots);
+    pia_index count = fit->rows + 2 * fit->degree[0] + 1;
+    double *knots = pia_take(fit->context, count, sizeof *knots), *t = pia_take(fit->context, fit->rows, sizeof *t);
+    pia_status status = knots != NULL && t != NULL ? PIA_OK : PIA_E_MEMORY;
+    if (status == PIA_OK) {
+        unit_parameters(fit, t);
+        pia_place_problem problem = {fit->degree[0], fit->closed[0], fit->rows, t, fit->rows};
+        status = pia_place_find("average")->place(fit->context, &problem, knots);
+    }
     if (status == PIA_OK) status = pia_refine_install(fit, knots, fit->rows);
     if (status == PIA_OK) status = pia_refine_solve(fit);
     pia_give(fit->context, knots);
+    pia_give(fit->context, t);
     return status;
 }
 
@@ -209,7 +227,8 @@ static pia_status sweep(pia_fit *fit, pia_draft *draft, int merge, pia_index *ta
     for (pia_index k = 0; k < count && status == PIA_OK; k++) {
         pia_index j = pia_draft_find(draft, order[k].knot);
         pia_trial trial;
-        if (j < 0) continue;
+        if (j < 0 || (draft->tried[j] & (merge ? 2 : 1)) != 0) continue;
+        draft->tried[j] |= merge ? 2 : 1;
         status = try_knot(draft, j, merge, &trial);
         *taken += trial.taken;
     }
@@ -242,7 +261,8 @@ static pia_status spare(pia_fit *fit, pia_index *spared)
     size_t points = (size_t)(draft.count * draft.dim) * sizeof(double);
     draft.knots = pia_take(fit->context, knots, sizeof(double));
     draft.control = pia_take(fit->context, draft.count * draft.dim, sizeof(double));
-    pia_status status = draft.knots != NULL && draft.control != NULL ? PIA_OK : PIA_E_MEMORY;
+    draft.tried = pia_take_zero(fit->context, knots, 1);
+    pia_status status = draft.knots != NULL && draft.control != NULL && draft.tried != NULL ? PIA_OK : PIA_E_MEMORY;
     if (status == PIA_OK) {
         memcpy(draft.knots, fit->knots[0], (size_t)knots * sizeof(double));
         memcpy(draft.control, fit->iterate.points, points);
@@ -262,6 +282,26 @@ static pia_status spare(pia_fit *fit, pia_index *spared)
     pia_draft_close(&draft);
     pia_give(fit->context, draft.knots);
     pia_give(fit->context, draft.control);
+    pia_give(fit->context, draft.tried);
+    return status;
+}
+
+/* Parameters at the foot points of the current curve; taken back where a step that was meant to bring points closer did not. */
+static pia_status move_to_feet(pia_fit *fit)
+{
+    double *before = pia_take(fit->context, fit->rows, sizeof *before);
+    if (before == NULL) return PIA_E_MEMORY;
+    memcpy(before, fit->parameter[0], (size_t)fit->rows * sizeof *before);
+    pia_status status = PIA_OK;
+    for (int newton = 0; newton < NEWTON_STEPS && status == PIA_OK; newton++) status = pia_fit_project(&fit->iterate);
+    pia_iterate_measure(&fit->iterate);
+    if (worst_ratio(fit, 0, fit->rows) > 1) {
+        memcpy(fit->parameter[0], before, (size_t)fit->rows * sizeof *before);
+        pia_collocation_rebucket(&fit->line[0]);
+        fit->iterate.errors_known = 0;
+        pia_iterate_measure(&fit->iterate);
+    }
+    pia_give(fit->context, before);
     return status;
 }
 
@@ -282,8 +322,7 @@ pia_status pia_refine_curve(pia_fit *fit)
     for (int k = 0; status == PIA_OK && k < CORRECTIONS && spared > 0; k++) {
         status = spare(fit, &spared);
         if (fit->options.measure_distance == 0) break;
-        for (int newton = 0; newton < NEWTON_STEPS && status == PIA_OK; newton++) status = pia_fit_project(&fit->iterate);
-        pia_iterate_measure(&fit->iterate);
+        if (status == PIA_OK) status = move_to_feet(fit);
     }
     fit->solve.stop = reached ? PIA_STOP_TOLERANCE : PIA_STOP_NO_KNOT_LEFT;
     return status;

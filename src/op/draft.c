@@ -223,6 +223,9 @@ static pia_index rotate(pia_draft *draft, pia_index middle, double *spare)
     memcpy(draft->knots, spare, (size_t)n * sizeof *spare);
     memcpy(spare, draft->control, (size_t)n * point);
     for (pia_index i = 0; i < n; i++) memcpy(draft->control + i * draft->dim, spare + (by + i) % n * draft->dim, point);
+    unsigned char *marks = (unsigned char *)spare;
+    memcpy(marks, draft->tried, (size_t)n);
+    for (pia_index i = 0; i < n; i++) draft->tried[i] = marks[(by + i) % n];
     return n / 2;
 }
 
@@ -282,6 +285,10 @@ static void put_piece(pia_draft *draft, pia_index first, int removed, const doub
     pia_index knots = draft->count + (draft->closed ? 0 : draft->degree + 1);
     memcpy(draft->knots + first, added, (size_t)inserted * sizeof(double));
     memmove(draft->knots + first + inserted, draft->knots + first + removed, (size_t)(knots - first - removed) * sizeof(double));
+    memmove(draft->tried + first + inserted, draft->tried + first + removed, (size_t)(knots - first - removed));
+    pia_index near = w->count + draft->degree, from = first > near ? first - near : 0;
+    pia_index to = first + near < knots - fewer ? first + near : knots - fewer;
+    memset(draft->tried + from, 0, (size_t)(to - from));
     pia_index gone = first - draft->degree > 0 ? first - draft->degree : 0;
     memmove(draft->control + gone * draft->dim, draft->control + (gone + fewer) * draft->dim,
             (size_t)((draft->count - gone - fewer) * draft->dim) * sizeof(double));
@@ -296,6 +303,7 @@ static void put_whole(pia_draft *draft, const window *w)
     draft->count = w->free;
     memcpy(draft->knots, w->knots, (size_t)w->free * sizeof(double));
     memcpy(draft->control, w->point, (size_t)(w->free * w->dim) * sizeof(double));
+    memset(draft->tried, 0, (size_t)w->free);
 }
 
 pia_status pia_draft_replace(pia_draft *draft, pia_index first, int removed, const double *added, int inserted, int reach, int rounds,

@@ -11,9 +11,10 @@
 typedef struct pia_draft {
     pia_context *context;
     int degree, dim, closed;
-    pia_index count; /* control points; of a closed draft the distinct ones */
-    double *knots;   /* open: [count + degree + 1]; closed: one period [count] */
-    double *control; /* [count x dim], relative to origin */
+    pia_index count;      /* control points; of a closed draft the distinct ones */
+    double *knots;        /* open: [count + degree + 1]; closed: one period [count] */
+    double *control;      /* [count x dim], relative to origin */
+    unsigned char *tried; /* [as knots] the caller\'s marks; cleared for every knot whose trial a taken one has made worth repeating */
     /* The data, borrowed: sorted parameters, and the inverse of what each row may deviate. */
     const double *parameters, *points, *origin;
     const double *inverse_tolerance; /* [rows]; NULL: inverse_one for all */
