@@ -68,42 +68,54 @@ static const char *read_plainly(const reading *r, const char *p, double *values)
     return p;
 }
 
-static pia_status refuse_field(const reading *r, const pia_text_field *field, pia_index index, double value)
-{
-    char quote[32];
-    pia_input_quote(field->begin, field->end, quote);
-    if (field->begin == field->end)
-        return pia_input_fail(r->context, r->input, field->begin, "field %lld is empty; fill it in, or skip invalid rows",
-                              (long long)index + 1);
-    if (!isfinite(value))
-        return pia_input_fail(r->context, r->input, field->begin,
-                              "field %lld is '%s', not a finite number; correct it, or skip invalid rows", (long long)index + 1, quote);
-    return pia_input_fail(r->context, r->input, field->begin,
-                          "field %lld is '%s', not a number; correct it, choose other columns, or skip invalid rows",
-                          (long long)index + 1, quote);
-}
+/* Why a row cannot be used: its number of fields, or the first field that is no finite number. */
+typedef struct problem {
+    pia_index field_count;
+    pia_index index;      /* of the field */
+    pia_text_field field; /* begin NULL: the number of fields */
+    int number;           /* 1: a number, but not finite */
+} problem;
 
-static pia_status read_closely(const reading *r, const pia_text_line *line, double *values)
+/* Takes a row apart field by field; returns 0 when it is good. */
+static int find_problem(const reading *r, const pia_text_line *line, double *values, problem *out)
 {
+    *out = (problem){0};
     pia_text_field field;
-    pia_index count = 0;
     const char *p = line->begin;
-    while (pia_text_next_field(line, r->layout->delimiter, &p, &field)) count++;
-    if (count != r->layout->field_count)
-        return pia_input_fail(r->context, r->input, line->begin,
-                              "row has %lld field%s, the rows before had %lld; correct it, or skip invalid rows", (long long)count,
-                              count == 1 ? "" : "s", (long long)r->layout->field_count);
+    while (pia_text_next_field(line, r->layout->delimiter, &p, &field)) out->field_count++;
+    if (out->field_count != r->layout->field_count) return 1;
     p = line->begin;
     for (pia_index f = 0; pia_text_next_field(line, r->layout->delimiter, &p, &field); f++) {
         double value = 0;
         if (r->columns->slot[f] < 0) continue;
         int number = pia_text_number(&field, &value);
-        if (!number) value = 0;
-        int wanted = number && (isfinite(value) || (isnan(value) && r->options->allow_nan));
-        if (!wanted) return refuse_field(r, &field, f, value);
+        if (!number || !(isfinite(value) || (isnan(value) && r->options->allow_nan))) {
+            out->index = f;
+            out->field = field;
+            out->number = number;
+            return 1;
+        }
         values[r->columns->slot[f]] = value;
     }
-    return PIA_OK;
+    return 0;
+}
+
+static pia_status refuse_row(const reading *r, const pia_text_line *line, const problem *why)
+{
+    char quote[32];
+    long long field = (long long)why->index + 1;
+    if (why->field.begin == NULL)
+        return pia_input_fail(r->context, r->input, line->begin,
+                              "row has %lld field%s, the rows before had %lld; correct it, or skip invalid rows",
+                              (long long)why->field_count, why->field_count == 1 ? "" : "s", (long long)r->layout->field_count);
+    pia_input_quote(why->field.begin, why->field.end, quote);
+    if (why->field.begin == why->field.end)
+        return pia_input_fail(r->context, r->input, line->begin, "field %lld is empty; fill it in, or skip invalid rows", field);
+    if (why->number)
+        return pia_input_fail(r->context, r->input, line->begin,
+                              "field %lld is '%s', not a finite number; correct it, or skip invalid rows", field, quote);
+    return pia_input_fail(r->context, r->input, line->begin,
+                          "field %lld is '%s', not a number; correct it, choose other columns, or skip invalid rows", field, quote);
 }
 
 /* Room for one more row. The bytes read so far tell how many rows the rest will hold, so that few copies are made and little is
@@ -155,14 +167,13 @@ static pia_status read_row(reading *r, const char *p, const char **next)
     double *values = r->values + r->count * r->columns->count;
     *next = read_plainly(r, p, values);
     if (*next == NULL) {
+        problem why;
         pia_text_line line = pia_text_line_at(p, r->input->end);
         *next = line.next;
-        status = read_closely(r, &line, values);
-        if (status != PIA_OK && r->options->skip_invalid) {
-            r->skipped++;
-            return PIA_OK;
-        }
-        if (status != PIA_OK) return status;
+        int bad = find_problem(r, &line, values, &why);
+        if (bad && !r->options->skip_invalid) return refuse_row(r, &line, &why);
+        r->skipped += bad;
+        if (bad) return PIA_OK;
     }
     if (r->options->skip_invalid) status = append_index(r, &r->row, &r->row_capacity, r->count, r->count + r->skipped);
     if (status == PIA_OK) r->count++;
