@@ -13,6 +13,7 @@ function(pia_install_library)
   install(FILES ${CMAKE_CURRENT_BINARY_DIR}/piaConfig.cmake ${CMAKE_CURRENT_BINARY_DIR}/piaConfigVersion.cmake DESTINATION ${config})
 
   list(JOIN PIA_PART_MODULES " " requires)
+  list(JOIN PIA_PART_PLAIN " " plain)
   file(RELATIVE_PATH up /prefix/${CMAKE_INSTALL_LIBDIR}/pkgconfig /prefix)
   configure_file(cmake/pia.pc.in pia.pc @ONLY)
   install(FILES ${CMAKE_CURRENT_BINARY_DIR}/pia.pc DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig)
