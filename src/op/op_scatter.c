@@ -3,6 +3,7 @@
 #include "basis.h"
 #include "kernel.h"
 #include "knots.h"
+#include "strips.h"
 
 #include <math.h>
 #include <string.h>
@@ -56,7 +57,8 @@ static void sort_rows(const sorting *s, pia_index cells)
     begin[0] = 0;
 }
 
-pia_index pia_scatter_strip(const pia_scatter *scatter, pia_index chunks, pia_index chunk)
+/* The first strip of a chunk: strips are dealt out so that chunks hold about the same number of rows. */
+static pia_index first_strip(const pia_scatter *scatter, pia_index chunks, pia_index chunk)
 {
     pia_index low = 0, high = scatter->cells[0], rows = scatter->begin[scatter->cells[0] * scatter->cells[1]];
     if (chunk == chunks) return high;
@@ -70,7 +72,7 @@ pia_index pia_scatter_strip(const pia_scatter *scatter, pia_index chunks, pia_in
     return low;
 }
 
-pia_index pia_scatter_chunks(const pia_scatter *scatter)
+static pia_index chunk_count(const pia_scatter *scatter)
 {
     pia_index chunks = pia_chunk_count(scatter->begin[scatter->cells[0] * scatter->cells[1]], GRAIN);
     if (chunks > scatter->cells[0]) chunks = scatter->cells[0];
@@ -87,7 +89,6 @@ typedef struct pass {
     double factor;
     int dim;
     double *out;
-    double *tail;       /* gather: [chunks x degree of u x full of v x dim] sums beyond a chunk's own lines of control points */
     pia_errors *errors; /* [chunks] */
 } pass;
 
@@ -130,8 +131,8 @@ static void apply_chunk(void *work, pia_index chunk)
 {
     const pass *p = work;
     const pia_scatter *scatter = p->scatter;
-    pia_index to = pia_scatter_strip(scatter, p->chunks, chunk + 1);
-    for (pia_index strip = pia_scatter_strip(scatter, p->chunks, chunk); strip < to; strip++)
+    pia_index to = first_strip(scatter, p->chunks, chunk + 1);
+    for (pia_index strip = first_strip(scatter, p->chunks, chunk); strip < to; strip++)
         for (pia_index column = 0; column < scatter->cells[1]; column++) {
             cell c = cell_at(scatter, strip, column);
             for (pia_index at = c.begin; at < c.end; at++) model_value(p, &c, at, p->out + scatter->order[at] * p->dim);
@@ -157,8 +158,8 @@ static void residual_chunk(void *work, pia_index chunk)
     int dim = p->dim;
     double sum[PIA_MAX_DIM], worst = -1;
     pia_errors e = {0, -1, 0, 0, 0};
-    pia_index to = pia_scatter_strip(scatter, p->chunks, chunk + 1);
-    for (pia_index strip = pia_scatter_strip(scatter, p->chunks, chunk); strip < to; strip++)
+    pia_index to = first_strip(scatter, p->chunks, chunk + 1);
+    for (pia_index strip = first_strip(scatter, p->chunks, chunk); strip < to; strip++)
         for (pia_index column = 0; column < scatter->cells[1]; column++) {
             cell c = cell_at(scatter, strip, column);
             for (pia_index at = c.begin; at < c.end; at++) {
@@ -179,40 +180,26 @@ static void residual_chunk(void *work, pia_index chunk)
     p->errors[chunk] = e;
 }
 
-static void gather_cell(const pass *p, const cell *c, double *const *line)
-{
-    const pia_scatter *scatter = p->scatter;
-    double u[PIA_MAX_DEGREE + 1], v[PIA_MAX_DEGREE + 1];
-    int dim = p->dim;
-    for (pia_index at = c->begin; at < c->end; at++) {
-        pia_index row = scatter->order[at];
-        const double *value = p->in + row * dim;
-        double w = p->weights != NULL ? p->weights[row] : 1;
-        row_values(scatter, c, at, u, v);
-        for (int i = 0; i <= c->p; i++) {
-            double *to = line[i] + c->column * dim, wu = w * u[i];
-            for (int j = 0; j <= c->q; j++)
-                for (int d = 0; d < dim; d++) to[j * dim + d] += wu * v[j] * value[d];
-        }
-    }
-}
-
-/* A chunk owns the lines of control points whose strip it has; what its cells add to the lines behind goes to its tail. */
-static void gather_chunk(void *work, pia_index chunk)
+/* Strip `strip` adds to the lines of control points that begin with it. */
+static void gather_strip(void *work, pia_index strip)
 {
     const pass *p = work;
     const pia_scatter *scatter = p->scatter;
-    int degree = scatter->axis[0].degree;
-    pia_index width = scatter->axis[1].full * p->dim;
-    pia_index from = pia_scatter_strip(scatter, p->chunks, chunk), to = pia_scatter_strip(scatter, p->chunks, chunk + 1);
-    double *tail = p->tail + chunk * degree * width, *line[PIA_MAX_DEGREE + 1];
-    memset(p->out + from * width, 0, (size_t)((to - from) * width) * sizeof *p->out);
-    memset(tail, 0, (size_t)(degree * width) * sizeof *tail);
-    for (pia_index strip = from; strip < to; strip++) {
-        for (int i = 0; i <= degree; i++) line[i] = strip + i < to ? p->out + (strip + i) * width : tail + (strip + i - to) * width;
-        for (pia_index column = 0; column < scatter->cells[1]; column++) {
-            cell c = cell_at(scatter, strip, column);
-            gather_cell(p, &c, line);
+    double u[PIA_MAX_DEGREE + 1], v[PIA_MAX_DEGREE + 1];
+    pia_index line = scatter->axis[1].full;
+    int dim = p->dim;
+    for (pia_index column = 0; column < scatter->cells[1]; column++) {
+        cell c = cell_at(scatter, strip, column);
+        for (pia_index at = c.begin; at < c.end; at++) {
+            pia_index row = scatter->order[at];
+            const double *value = p->in + row * dim;
+            double w = p->weights != NULL ? p->weights[row] : 1;
+            row_values(scatter, &c, at, u, v);
+            for (int i = 0; i <= c.p; i++) {
+                double *to = p->out + ((strip + i) * line + column) * dim, wu = w * u[i];
+                for (int j = 0; j <= c.q; j++)
+                    for (int d = 0; d < dim; d++) to[j * dim + d] += wu * v[j] * value[d];
+            }
         }
     }
 }
@@ -220,7 +207,7 @@ static void gather_chunk(void *work, pia_index chunk)
 static pass pass_over(const pia_op *op, int dim)
 {
     const pia_scatter *scatter = op->state;
-    return (pass){.scatter = scatter, .chunks = pia_scatter_chunks(scatter), .dim = dim, .weights = op->weights, .tail = op->along};
+    return (pass){.scatter = scatter, .chunks = chunk_count(scatter), .dim = dim, .weights = op->weights};
 }
 
 static void apply(const pia_op *op, const double *full, int dim, double *values)
@@ -255,13 +242,8 @@ static void gather(const pia_op *op, const double *values, const double *weights
     p.in = values;
     p.weights = weights;
     p.out = full;
-    pia_for_each(op->context, p.chunks, gather_chunk, &p);
-    pia_index width = p.scatter->axis[1].full * dim, size = p.scatter->axis[0].degree * width;
-    memset(full + p.scatter->cells[0] * width, 0, (size_t)size * sizeof *full);
-    for (pia_index chunk = 0; chunk < p.chunks; chunk++) {
-        double *to = full + pia_scatter_strip(p.scatter, p.chunks, chunk + 1) * width;
-        for (pia_index k = 0; k < size; k++) to[k] += p.tail[chunk * size + k];
-    }
+    memset(full, 0, (size_t)(op->fulls * dim) * sizeof *full);
+    pia_each_strip(p.chunks > 1 ? op->context : NULL, p.scatter->cells[0], p.scatter->axis[0].degree, gather_strip, &p);
 }
 
 /* ---- opening ---- */
@@ -282,7 +264,7 @@ static const pia_op_class scatter_class = {"scatter", apply, gather, residual, c
 static pia_status take_rows(pia_op *op, const double *parameters)
 {
     pia_scatter *scatter = op->state;
-    pia_index cells = scatter->cells[0] * scatter->cells[1], tails;
+    pia_index cells = scatter->cells[0] * scatter->cells[1];
     scatter->begin = pia_take(op->context, cells + 1, sizeof *scatter->begin);
     scatter->order = pia_take(op->context, op->rows, sizeof *scatter->order);
     scatter->sorted = pia_take(op->context, op->rows, 2 * sizeof *scatter->sorted);
@@ -294,11 +276,7 @@ static pia_status take_rows(pia_op *op, const double *parameters)
         sort_rows(&s, cells);
     }
     pia_give(op->context, cell_of);
-    if (!ready) return pia_take_status(op->context, op->rows, 2 * sizeof *scatter->sorted);
-    if (!pia_multiply(pia_scatter_chunks(scatter) * scatter->axis[0].degree * op->dim, scatter->axis[1].full, &tails))
-        return PIA_E_SIZE;
-    op->along = pia_take(op->context, tails, sizeof *op->along);
-    return op->along != NULL ? PIA_OK : pia_take_status(op->context, tails, sizeof *op->along);
+    return ready ? PIA_OK : pia_take_status(op->context, op->rows, 2 * sizeof *scatter->sorted);
 }
 
 static pia_status fill(pia_op *op, pia_collocation *axis, const double *parameters)

@@ -23,9 +23,4 @@ pia_status pia_op_scatter_open(pia_context *context, const int *degree, const pi
 /* The sorted rows of such an operator; NULL for curves and grids. */
 const pia_scatter *pia_op_scatter(const pia_op *op);
 
-/* The first strip (span of u) of chunk `chunk` of `chunks`: strips are dealt out so that chunks hold about the same number of rows. */
-pia_index pia_scatter_strip(const pia_scatter *scatter, pia_index chunks, pia_index chunk);
-/* Chunks that passes over the rows are cut into. */
-pia_index pia_scatter_chunks(const pia_scatter *scatter);
-
 #endif
