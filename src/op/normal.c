@@ -11,14 +11,25 @@ static pia_status take_arrays(pia_normal *normal, int dim)
     return pia_take_status(context, cols, (size_t)dim * sizeof *normal->right);
 }
 
+/* A grid that turns out to be no Kronecker product is a surface like any other. */
+static pia_status open_class(pia_normal *normal, const pia_targets *targets)
+{
+    const pia_op *op = normal->op;
+    if (op->directions == 1) return pia_normal_curve_open(normal, targets);
+    if (op->line[0] == NULL || op->frozen != NULL) return pia_normal_stencil_open(normal, targets);
+    pia_status status = pia_normal_grid_open(normal, targets);
+    if (status != PIA_E_UNAVAILABLE) return status;
+    if (normal->class != NULL) normal->class->close(normal);
+    return pia_normal_stencil_open(normal, targets);
+}
+
 pia_status pia_normal_open(pia_op *op, const pia_targets *targets, pia_normal **out)
 {
-    if (op->line[0] == NULL) return pia_fail(op->context, PIA_E_UNAVAILABLE, "%s has no cheap normal form", op->class->name);
     pia_normal *normal = pia_take_zero(op->context, 1, sizeof *normal);
     if (normal == NULL) return pia_take_status(op->context, 1, sizeof *normal);
     normal->op = op;
     pia_status status = take_arrays(normal, targets->dim);
-    if (status == PIA_OK) status = op->directions == 1 ? pia_normal_curve_open(normal, targets) : pia_normal_grid_open(normal, targets);
+    if (status == PIA_OK) status = open_class(normal, targets);
     if (status != PIA_OK) {
         pia_normal_close(normal);
         return status;

@@ -15,6 +15,8 @@ typedef struct pia_normal_class {
     void (*solve)(const pia_normal *normal, double *b, int dim);                     /* b := H^-1 b */
     void (*sweep)(const pia_normal *normal, double *x, int dim);                     /* one symmetric Gauss-Seidel sweep for H x = b;
                                                                                         NULL: the rows of H are not at hand */
+    pia_status (*approximate)(pia_normal *normal);                      /* before precondition, and after every change; NULL: factor */
+    void (*precondition)(const pia_normal *normal, double *b, int dim); /* b := M^-1 b, M close to H; NULL: solve */
     void (*refresh)(pia_normal *normal, const pia_targets *targets, pia_index first_row, pia_index last_row);
     void (*close)(pia_normal *normal);
 } pia_normal_class;
@@ -29,7 +31,8 @@ struct pia_normal {
     void *state;
 };
 
-/* Errors: PIA_E_MEMORY; PIA_E_UNAVAILABLE when this operator has no cheap normal form (a grid with holes). */
+/* Banded for curves; a Kronecker product for full grids without weights and frozen control points; a stencil for other surfaces.
+ * Errors: PIA_E_MEMORY, PIA_E_SIZE; PIA_E_UNAVAILABLE when this operator has no normal form. */
 pia_status pia_normal_open(pia_op *op, const pia_targets *targets, pia_normal **out);
 void pia_normal_close(pia_normal *normal);
 
@@ -40,5 +43,6 @@ void pia_normal_refresh(pia_normal *normal, const pia_targets *targets, pia_inde
 /* For pia_normal_open: the normal forms of its operators, whose arrays are allocated and whose state is to be made. */
 pia_status pia_normal_curve_open(pia_normal *normal, const pia_targets *targets);
 pia_status pia_normal_grid_open(pia_normal *normal, const pia_targets *targets);
+pia_status pia_normal_stencil_open(pia_normal *normal, const pia_targets *targets);
 
 #endif

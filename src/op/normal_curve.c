@@ -91,7 +91,8 @@ static void close(pia_normal *normal)
     pia_give(context, c);
 }
 
-static const pia_normal_class banded = {"banded", multiply, factor, solve, sweep, refresh, close};
+static const pia_normal_class banded = {
+    .name = "banded", .multiply = multiply, .factor = factor, .solve = solve, .sweep = sweep, .refresh = refresh, .close = close};
 
 pia_status pia_normal_curve_open(pia_normal *normal, const pia_targets *targets)
 {

@@ -181,7 +181,8 @@ static void close(pia_normal *normal)
     pia_give(context, g);
 }
 
-static const pia_normal_class kronecker = {"kronecker", multiply, factor, solve, NULL, refresh, close};
+static const pia_normal_class kronecker = {
+    .name = "kronecker", .multiply = multiply, .factor = factor, .solve = solve, .refresh = refresh, .close = close};
 
 static pia_index count_chunks(const pia_op *op)
 {
