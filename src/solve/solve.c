@@ -37,7 +37,8 @@ pia_status pia_solve_begin(pia_solve *solve, const pia_values *method_values, co
     iterate->stalled = iterate->finished = 0;
     iterate->relative_gradient = NAN;
     iterate->adjust_max = 0;
-    solve->rate = solve->safe_error = solve->last_error = solve->best_error = NAN;
+    solve->rate = solve->last_error = solve->best_error = NAN;
+    solve->safe_error = INFINITY;
     solve->best_iteration = iterate->iteration;
     if (!solve->begun) solve->start_error = NAN;
     solve->stop = PIA_STOP_NONE;
@@ -55,7 +56,9 @@ static void end_states(pia_solve *solve)
     if (solve->limiter_state != NULL && solve->limiter->end != NULL) solve->limiter->end(iterate, solve->limiter_state);
     pia_give(iterate->context, solve->method_state);
     pia_give(iterate->context, solve->limiter_state);
+    pia_give(iterate->context, solve->safe);
     solve->method_state = solve->limiter_state = NULL;
+    solve->safe = NULL;
 }
 
 pia_status pia_solve_restart(pia_solve *solve, const pia_values *method_values, const pia_values *limiter_values)
@@ -69,9 +72,7 @@ void pia_solve_end(pia_solve *solve)
 {
     if (solve->iterate == NULL) return;
     end_states(solve);
-    pia_give(solve->iterate->context, solve->safe);
     pia_trace_clear(pia_memory_of(solve->iterate->context), &solve->trace);
-    solve->safe = NULL;
 }
 
 static pia_status add_trace(pia_solve *solve)
@@ -86,7 +87,9 @@ static pia_status add_trace(pia_solve *solve)
                          .seconds = solve->seconds};
     pia_index count = solve->trace.count;
     if (count > 0 && solve->trace.row[count - 1].iteration == row.iteration) return PIA_OK;
-    return pia_trace_add(pia_memory_of(iterate->context), &solve->trace, &row) ? PIA_OK : PIA_E_MEMORY;
+    if (pia_trace_add(pia_memory_of(iterate->context), &solve->trace, &row)) return PIA_OK;
+    return pia_fail(iterate->context, PIA_E_MEMORY, "out of memory for %lld rows of the trace; keep fewer",
+                    (long long)solve->trace.count + 1);
 }
 
 /* Bookkeeping with the errors of the current iterate, and a row of the trace where one is due. */
@@ -116,9 +119,8 @@ static pia_status keep_safe(pia_solve *solve)
     if (solve->safe == NULL) {
         solve->safe = pia_take(iterate->context, iterate->op->cols * iterate->dim, sizeof(double));
         if (solve->safe == NULL) return PIA_E_MEMORY;
-        solve->safe_error = INFINITY;
     }
-    if (!(solve->safe_error > 2 * iterate->errors.max || isinf(solve->safe_error))) return PIA_OK;
+    if (!(solve->safe_error > 2 * iterate->errors.max)) return PIA_OK;
     memcpy(solve->safe, iterate->points, size);
     solve->safe_error = iterate->errors.max;
     return PIA_OK;
@@ -128,12 +130,12 @@ static pia_status keep_safe(pia_solve *solve)
 static int take_back(pia_solve *solve)
 {
     pia_iterate *iterate = solve->iterate;
-    if (solve->safe == NULL || iterate->errors.max <= GROWTH * solve->safe_error) return 0;
+    if (isinf(solve->safe_error) || iterate->errors.max <= GROWTH * solve->safe_error) return 0;
     memcpy(iterate->points, solve->safe, (size_t)(iterate->op->cols * iterate->dim) * sizeof(double));
     iterate->errors_known = 0;
     iterate->damping /= 2;
     solve->last_error = NAN;
-    iterate->stalled = iterate->damping < ldexp(1, -MAX_HALVINGS);
+    if (iterate->damping < ldexp(1, -MAX_HALVINGS)) solve->stop = PIA_STOP_STALLED;
     return 1;
 }
 
