@@ -224,8 +224,8 @@ static pia_index rotate(pia_draft *draft, pia_index middle, double *spare)
     memcpy(spare, draft->control, (size_t)n * point);
     for (pia_index i = 0; i < n; i++) memcpy(draft->control + i * draft->dim, spare + (by + i) % n * draft->dim, point);
     unsigned char *marks = (unsigned char *)spare;
-    memcpy(marks, draft->tried, (size_t)n);
-    for (pia_index i = 0; i < n; i++) draft->tried[i] = marks[(by + i) % n];
+    for (pia_index i = 0; i < n; i++) marks[i] = draft->tried[(by + i) % n];
+    for (pia_index i = 0; i < n; i++) draft->tried[i] = marks[i];
     return n / 2;
 }
 
