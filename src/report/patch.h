@@ -2,7 +2,7 @@
 #ifndef PIA_REPORT_PATCH_H
 #define PIA_REPORT_PATCH_H
 
-#include "pieces.h"
+#include "figure_pieces.h"
 #include "scene.h"
 
 /* How a surface is coloured. */

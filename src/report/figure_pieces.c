@@ -1,4 +1,4 @@
-#include "pieces.h"
+#include "figure_pieces.h"
 
 #include <stdlib.h>
 

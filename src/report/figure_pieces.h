@@ -1,6 +1,6 @@
 /* Pieces of a picture in space, drawn from far to near (painter's algorithm). */
-#ifndef PIA_REPORT_PIECES_H
-#define PIA_REPORT_PIECES_H
+#ifndef PIA_REPORT_FIGURE_PIECES_H
+#define PIA_REPORT_FIGURE_PIECES_H
 
 #include "view.h"
 
