@@ -7,7 +7,8 @@
 void pia_range_widen(double *low, double *high, double extent, double pad)
 {
     double magnitude = fmax(fabs(*low), fabs(*high));
-    double least = extent > 0 ? 1e-9 * magnitude : magnitude > 0 ? 0.1 * magnitude : 1;
+    /* Below 1e-12 of the magnitude an extent is rounding, and shows as one point. */
+    double least = extent > 1e-12 * magnitude ? 1e-9 * magnitude : magnitude > 0 ? magnitude : 1;
     double more = pad * fmax(extent, least);
     *low -= more;
     *high += more;

@@ -34,16 +34,28 @@ void pia_comb_legend(const pia_scene *scene, pia_legend *legend)
                    scene->comb_scale * most > scene->comb_longest ? " (cut)" : "");
 }
 
-pia_index pia_most_spots(const pia_scene *scene)
+pia_index pia_spot_room(const pia_scene *scene)
 {
-    pia_index most = scene->point_count;
+    pia_index busy = scene->point_count, single = 0;
     for (pia_index f = 0; f < scene->figure_count; f++) {
         const pia_figure *figure = &scene->figure[f];
-        if (figure->samples[0].count > most) most = figure->samples[0].count;
-        if (figure->info.control[0] > most) most = figure->info.control[0];
-        if (figure->tooth_count > most) most = figure->tooth_count;
+        busy += figure->samples[0].count;
+        if (figure->info.control[0] > single) single = figure->info.control[0];
+        if (figure->tooth_count > single) single = figure->tooth_count;
     }
-    return most;
+    return busy > single ? busy : single;
+}
+
+void pia_curves_legend(const pia_scene *scene, pia_legend *legend)
+{
+    enum { MOST = 6 }; /* then the colours come again */
+    for (pia_index f = 0; f < scene->figure_count && f < MOST; f++) {
+        char name[32] = "curve";
+        if (scene->figure_count > 1)
+            snprintf(name, sizeof name, "curve %lld%s", (long long)f + 1, f + 1 == MOST && scene->figure_count > MOST ? " ..." : "");
+        pia_legend_add(legend, (pia_pen){pia_curve_colour(scene, f), pia_curve_width(&scene->figure[0]), 0}, PIA_MARK_NONE,
+                       pia_style_text, "%s", name);
+    }
 }
 
 double pia_curve_width(const pia_figure *curve)
@@ -71,14 +83,13 @@ static pia_box plate_at(pia_spot spot, double width, int number, const pia_box *
 }
 
 /* The plate inside the page that hides least. */
-static pia_box choose_plate(const pia_scene *scene, const pia_spot *spots, double width, const pia_box *page)
+static pia_box choose_plate(pia_spot spot, const pia_spot *busy, pia_index count, double width, const pia_box *page)
 {
-    pia_spot spot = spots[scene->worst];
     pia_box best = plate_at(spot, width, 0, page);
-    pia_index least = scene->point_count + 1;
+    pia_index least = count + 1;
     for (int number = 0; number < 12; number++) {
         pia_box plate = plate_at(spot, width, number, page);
-        pia_index hidden = covered(spots, scene->point_count, &plate);
+        pia_index hidden = covered(busy, count, &plate);
         if (plate.top < page->top || plate.bottom > page->bottom || hidden >= least) continue;
         least = hidden;
         best = plate;
@@ -86,7 +97,7 @@ static pia_box choose_plate(const pia_scene *scene, const pia_spot *spots, doubl
     return best;
 }
 
-void pia_worst_draw(pia_canvas *canvas, const pia_scene *scene, const pia_spot *spots, const pia_box *page)
+void pia_worst_draw(pia_canvas *canvas, const pia_scene *scene, const pia_spot *spots, pia_index count, const pia_box *page)
 {
     char size[PIA_LABEL_SIZE], text[2 * PIA_LABEL_SIZE];
     if (scene->deviation == NULL || !(scene->largest > 0)) return;
@@ -94,7 +105,7 @@ void pia_worst_draw(pia_canvas *canvas, const pia_scene *scene, const pia_spot *
     snprintf(text, sizeof text, "max %.40s at point %lld", size, (long long)scene->worst);
     pia_type type = {.size = PIA_TEXT_SIZE, .colour = pia_style_warning, .down = 0.5};
     pia_spot spot = spots[scene->worst];
-    pia_box plate = choose_plate(scene, spots, canvas->text_width(canvas, text, type) + 6, page);
+    pia_box plate = choose_plate(spot, spots, count, canvas->text_width(canvas, text, type) + 6, page);
     double middle = 0.5 * (plate.top + plate.bottom), end = fmax(plate.left, fmin(spot.x, plate.right));
     double length = hypot(end - spot.x, middle - spot.y);
     const pia_spot corner[4] = {

@@ -33,6 +33,9 @@ pia_status pia_trace_draw(pia_canvas *canvas, pia_context *context, const pia_tr
 /* The colour of curve number `index`. */
 pia_colour pia_curve_colour(const pia_scene *scene, pia_index index);
 
+/* The entries of the curves. */
+void pia_curves_legend(const pia_scene *scene, pia_legend *legend);
+
 /* The entry of the curvature combs, where there are any. */
 void pia_comb_legend(const pia_scene *scene, pia_legend *legend);
 
@@ -46,11 +49,11 @@ double pia_dot_radius(pia_index count);
 /* Width of the line of a curve. */
 double pia_curve_width(const pia_figure *curve);
 
-/* Room for the points, samples, control points or teeth of any figure, one at a time. */
-pia_index pia_most_spots(const pia_scene *scene);
+/* Spots that hold all points and then the samples of all curves, or the control points or teeth of any one figure. */
+pia_index pia_spot_room(const pia_scene *scene);
 
-/* Where deviations are shown: a ring about the worst of the points, whose places on the page are `spots` [point_count], and
- * "max 1.2×10⁻³ at point 17" beside it, where it hides least. */
-void pia_worst_draw(pia_canvas *canvas, const pia_scene *scene, const pia_spot *spots, const pia_box *page);
+/* Where deviations are shown: a ring about the worst of the points, and "max 1.2×10⁻³ at point 17" beside it, where it hides least.
+ * spots [count]: places on the page of all points, and then of what else had better stay visible. */
+void pia_worst_draw(pia_canvas *canvas, const pia_scene *scene, const pia_spot *spots, pia_index count, const pia_box *page);
 
 #endif

@@ -133,17 +133,28 @@ static pia_status draw_layers(pia_canvas *canvas, const pia_scene *scene, const 
     return status;
 }
 
+/* All points and curves on the page; returns how many spots that makes. */
+static pia_index find_busy(const pia_scene *scene, const pia_frame *frame, pia_spot *spots)
+{
+    pia_index count = scene->point_count;
+    spots_of(frame, scene->point, count, spots);
+    for (pia_index f = 0; f < scene->figure_count; f++) {
+        spots_of(frame, scene->figure[f].at, scene->figure[f].samples[0].count, spots + count);
+        count += scene->figure[f].samples[0].count;
+    }
+    return count;
+}
+
 pia_status pia_plane_draw(pia_canvas *canvas, const pia_scene *scene, pia_box page)
 {
     pia_frame frame = frame_of(scene, page);
-    pia_spot *spots = pia_take(scene->context, pia_most_spots(scene), sizeof *spots);
+    pia_spot *spots = pia_take(scene->context, pia_spot_room(scene), sizeof *spots);
     if (spots == NULL) return PIA_E_MEMORY;
     pia_frame_draw(canvas, &frame);
     canvas->clip(canvas, &frame.page);
     pia_status status = draw_layers(canvas, scene, &frame, spots);
     canvas->clip(canvas, NULL);
-    spots_of(&frame, scene->point, scene->point_count, spots);
-    pia_worst_draw(canvas, scene, spots, &frame.page);
+    pia_worst_draw(canvas, scene, spots, find_busy(scene, &frame, spots), &frame.page);
     pia_give(scene->context, spots);
     return status;
 }
@@ -155,12 +166,7 @@ void pia_plane_legend(const pia_scene *scene, pia_legend *legend)
     if (scene->point_count > 0)
         pia_legend_add(legend, none, PIA_MARK_DISC, scene->deviation != NULL ? pia_ramp_colour(PIA_RAMP_ERROR, 0.4) : pia_style_data,
                        scene->deviation != NULL ? "data, by deviation" : "data");
-    if (scene->figure_count == 1)
-        pia_legend_add(legend, (pia_pen){pia_curve_colour(scene, 0), pia_curve_width(first), 0}, PIA_MARK_NONE, pia_style_text,
-                       "curve");
-    for (pia_index f = 0; scene->figure_count > 1 && f < scene->figure_count && f < 6; f++)
-        pia_legend_add(legend, (pia_pen){pia_curve_colour(scene, f), pia_curve_width(first), 0}, PIA_MARK_NONE, pia_style_text,
-                       f == 5 && scene->figure_count > 6 ? "curve %lld and more" : "curve %lld", (long long)f + 1);
+    pia_curves_legend(scene, legend);
     if (pia_knots_shown(scene, first)) pia_legend_add(legend, none, PIA_MARK_TICK, pia_style_text, "knots");
     if (scene->options.control)
         pia_legend_add(legend, pia_style_control, first->info.control[0] > PIA_MOST_MARKS ? PIA_MARK_NONE : PIA_MARK_SQUARE,

@@ -134,9 +134,22 @@ static void draw_shadow(pia_canvas *canvas, const pia_view *view, const pia_figu
     canvas->line(canvas, spots, pia_thin_line(spots, curve->samples[0].count, 0.25), (pia_pen){pia_colour_grey(0.8), 1, 0});
 }
 
-static void project_points(const pia_view *view, const pia_scene *scene, pia_spot *spots)
+static void project(const pia_view *view, const double *at, pia_index count, pia_spot *spots)
 {
-    for (pia_index i = 0; i < scene->point_count; i++) spots[i] = pia_view_spot(view, scene->point + 3 * i);
+    for (pia_index i = 0; i < count; i++) spots[i] = pia_view_spot(view, at + 3 * i);
+}
+
+/* All points and curves on the page; returns how many spots that makes. */
+static pia_index find_busy(const pia_scene *scene, const pia_view *view, pia_spot *spots)
+{
+    pia_index count = scene->point_count;
+    project(view, scene->point, count, spots);
+    for (pia_index f = 0; f < scene->figure_count; f++) {
+        if (scene->figure[f].info.directions == 2) continue;
+        project(view, scene->figure[f].at, scene->figure[f].samples[0].count, spots + count);
+        count += scene->figure[f].samples[0].count;
+    }
+    return count;
 }
 
 /* On a surface many dots would hide its colours. */
@@ -162,7 +175,7 @@ static pia_status add_points(pia_pieces *pieces, const pia_scene *scene, const p
     pia_index count = scene->point_count, kept = 0;
     pia_index *order = pia_take(scene->context, count, sizeof *order);
     if (order == NULL) return PIA_E_MEMORY;
-    project_points(pieces->view, scene, spots);
+    project(pieces->view, scene->point, count, spots);
     pia_status status = pia_thin_dots(scene->context, spots, scene->deviation, count, page, count > 5000 ? 2 : 0.5, order, &kept);
     if (status == PIA_OK) add_dots(pieces, scene, order, kept);
     pia_give(scene->context, order);
@@ -204,7 +217,7 @@ pia_status pia_space_draw(pia_canvas *canvas, const pia_scene *scene, pia_box pa
 {
     pia_view view = view_of(scene);
     pia_view_fit(&view, &page);
-    pia_spot *spots = pia_take(scene->context, pia_most_spots(scene), sizeof *spots);
+    pia_spot *spots = pia_take(scene->context, pia_spot_room(scene), sizeof *spots);
     if (spots == NULL) return PIA_E_MEMORY;
     pia_pieces pieces = {.memory = pia_memory_of(scene->context), .view = &view};
     int values = scene->figure[0].info.dim == 1 && scene->figure[0].info.directions == 2;
@@ -214,8 +227,7 @@ pia_status pia_space_draw(pia_canvas *canvas, const pia_scene *scene, pia_box pa
     pia_status status = add_all(&pieces, scene, &page, spots);
     if (status == PIA_OK) pia_pieces_draw(canvas, &pieces);
     pia_pieces_clear(&pieces);
-    project_points(&view, scene, spots);
-    pia_worst_draw(canvas, scene, spots, &page);
+    pia_worst_draw(canvas, scene, spots, find_busy(scene, &view, spots), &page);
     pia_give(scene->context, spots);
     draw_note(canvas, &view, &page);
     return status;
@@ -251,9 +263,9 @@ static void surface_legend(const pia_scene *scene, pia_legend *legend)
 
 static void curve_legend(const pia_scene *scene, pia_legend *legend)
 {
-    pia_legend_add(legend, (pia_pen){pia_curve_colour(scene, 0), pia_curve_width(&scene->figure[0]), 0}, PIA_MARK_NONE, pia_style_text,
-                   "curve");
-    pia_legend_add(legend, (pia_pen){pia_colour_grey(0.8), 1, 0}, PIA_MARK_NONE, pia_style_text, "its shadow");
+    pia_curves_legend(scene, legend);
+    pia_legend_add(legend, (pia_pen){pia_colour_grey(0.8), 1, 0}, PIA_MARK_NONE, pia_style_text,
+                   scene->figure_count > 1 ? "their shadows" : "its shadow");
     if (pia_knots_shown(scene, &scene->figure[0]))
         pia_legend_add(legend, (pia_pen){.width = 0}, PIA_MARK_DISC, pia_style_text, "knots");
 }

@@ -59,7 +59,7 @@ static pia_status check(pia_context *context, const pia_model *const *models, pi
     return PIA_OK;
 }
 
-/* "269 points · 24 control points · degree 3 · max deviation 1.2×10⁻³ · rms 3.4×10⁻⁴" */
+/* "269 points · 24 control points · degree 3 · max deviation 1.2×10⁻³, rms 3.4×10⁻⁴ at closest points" */
 static void describe(const pia_scene *scene, char *text, size_t size)
 {
     const pia_model_info *info = &scene->figure[0].info;
@@ -78,7 +78,8 @@ static void describe(const pia_scene *scene, char *text, size_t size)
     char largest[PIA_LABEL_SIZE], rms[PIA_LABEL_SIZE];
     pia_label_significant(scene->largest, 3, largest);
     pia_label_significant(scene->rms, 3, rms);
-    snprintf(text + used, size - used, " \u00b7 max deviation %s \u00b7 rms %s", largest, rms);
+    snprintf(text + used, size - used, " \u00b7 max deviation %s, rms %s at %s", largest, rms,
+             scene->parametric ? "given parameters" : "closest points");
 }
 
 static pia_shade shade_of(const pia_scene *scene)

@@ -164,6 +164,11 @@ static void draw_axis(pia_canvas *canvas, const pia_view *view, int axis, const 
     pia_tick_title(ticks, name, text);
     type.size = PIA_TEXT_SIZE;
     type.colour = pia_style_text;
+    if (out.x < -0.9) { /* beside an upright edge there is little room */
+        type.angle = 90;
+        type.across = 0.5;
+        type.down = 1;
+    }
     canvas->text(canvas, (pia_spot){0.5 * (from.x + to.x) + away * out.x, 0.5 * (from.y + to.y) + away * out.y}, text, type);
 }
 

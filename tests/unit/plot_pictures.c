@@ -241,22 +241,31 @@ static void curves_of_every_degree_and_dimension_are_drawn(void **state)
     }
 }
 
-static void surfaces_of_every_dimension_are_drawn_from_everywhere(void **state)
+static void surfaces_of_every_dimension_are_drawn(void **state)
 {
-    static const double elevation[] = {-90, -20, 0, 35, 90};
     for (int dim = 1; dim <= 4; dim++) {
         const int degree[2] = {dim, 4 - dim / 2};
         const pia_index control[2] = {7, 11};
         pia_model *model = make_surface(*state, degree, control, dim, 0);
-        for (size_t i = 0; i < sizeof elevation / sizeof *elevation; i++) {
-            pia_plot_options options;
-            pia_plot_options_init(&options);
-            options.elevation = elevation[i];
-            options.azimuth = 90 * (double)i;
-            free(draw(*state, model, NULL, 0, &options));
-        }
+        free(draw(*state, model, NULL, 0, NULL));
         pia_model_destroy(model);
     }
+}
+
+static void views_from_everywhere_are_drawn(void **state)
+{
+    static const double view[][2] = {{0, 0}, {90, 90}, {-90, -90}, {180, -20}, {1234, 35}};
+    const int degree[2] = {1, 1};
+    const pia_index control[2] = {5, 4};
+    pia_model *model = make_surface(*state, degree, control, 3, 1);
+    for (size_t i = 0; i < sizeof view / sizeof *view; i++) {
+        pia_plot_options options;
+        pia_plot_options_init(&options);
+        options.azimuth = view[i][0];
+        options.elevation = view[i][1];
+        free(draw(*state, model, NULL, 0, &options));
+    }
+    pia_model_destroy(model);
 }
 
 static void layers_come_and_go_with_their_options(void **state)
@@ -462,7 +471,8 @@ int main(void)
         IN_FOLDER(a_png_holds_more_than_blank_paper),
         IN_FOLDER(equal_pictures_are_equal_bytes),
         IN_FOLDER(curves_of_every_degree_and_dimension_are_drawn),
-        IN_FOLDER(surfaces_of_every_dimension_are_drawn_from_everywhere),
+        IN_FOLDER(surfaces_of_every_dimension_are_drawn),
+        IN_FOLDER(views_from_everywhere_are_drawn),
         IN_FOLDER(layers_come_and_go_with_their_options),
         IN_FOLDER(shapes_without_extent_and_of_extreme_size_are_drawn),
         IN_FOLDER(a_straight_line_is_drawn_in_any_direction),
