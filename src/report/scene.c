@@ -142,6 +142,7 @@ static pia_status measure(const pia_scene *scene, const pia_figure *figure, cons
 static pia_status compare_with_models(pia_scene *scene, const double *points, double *parameter, double *distance)
 {
     const double *known = scene->figure_count == 1 ? known_parameters(scene, scene->point_count) : NULL;
+    scene->parametric = known != NULL;
     for (pia_index i = 0; i < scene->point_count; i++) scene->deviation[i] = INFINITY;
     for (pia_index f = 0; f < scene->figure_count; f++) {
         const pia_model_info *info = &scene->figure[f].info;

@@ -16,6 +16,7 @@ typedef struct pia_scene {
     double *deviation;      /* [point_count]; NULL: not shown */
     double *parameter;      /* [point_count x 2] of the closest or given place on its model; with `deviation` */
     pia_index *owner;       /* [point_count] figure that a point's deviation is measured from; with `deviation` */
+    int parametric;         /* 1: deviations are those at given parameters; 0: from the closest points */
     double largest, rms;    /* of the deviations */
     pia_index worst;        /* point of the largest deviation */
     double low[3], high[3]; /* bounding box of all that is drawn */
