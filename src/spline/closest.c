@@ -13,8 +13,9 @@ static double square_to_box(const pia_foot *f, pia_index node)
     const double *low = f->pieces->box + node * 2 * dim, *high = low + dim;
     double sum = 0;
     for (int c = 0; c < dim; c++) {
-        double gap = fmax(fmax(low[c] - f->point[c], f->point[c] - high[c]), 0) / f->scale;
-        sum += gap * gap;
+        double below = low[c] - f->point[c], above = f->point[c] - high[c];
+        double gap = below > 0 ? below : above > 0 ? above : 0;
+        sum += gap / f->scale * (gap / f->scale);
     }
     return sum;
 }

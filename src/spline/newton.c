@@ -6,7 +6,7 @@
 #include "basis.h"
 #include "model.h"
 
-enum { ROWS = 6, WIDTH = PIA_MAX_DEGREE + 1, STEPS = 60, HALVINGS = 40 };
+enum { ROWS = 6, WIDTH = PIA_MAX_DEGREE + 1, STEPS = 60 };
 enum { S, SU, SV, SUU, SUV, SVV };
 
 /* Squared distance, its gradient and Hessian (uu, uv, vv), and the diagonal without the second derivatives of the point, which is never
@@ -128,20 +128,22 @@ static int is_better(const pia_newton *p, const state *next, const state *now)
     return next->square <= now->square * (1 + 8 * DBL_EPSILON) && free_slope(p, next) < 0.25 * free_slope(p, now);
 }
 
-/* Halves the step until it gains something; returns 0 when it never does. */
+/* Halves the step until it gains something; returns 0 when it never does, or moves so little that rounding decides. */
 static int go(const pia_newton *p, const double step[2], state *now)
 {
-    double part = 1;
-    for (int h = 0; h < HALVINGS; h++, part /= 2) {
+    double part = 1, moved;
+    do {
         double place[2];
         for (int d = 0; d < 2; d++) place[d] = fmin(fmax(now->at[d] + part * step[d], p->low[d]), p->high[d]);
-        if (place[0] == now->at[0] && place[1] == now->at[1]) return 0;
+        moved = fabs(place[0] - now->at[0]) + fabs(place[1] - now->at[1]);
+        if (moved == 0) return 0;
         state next = look(p, place);
         if (is_better(p, &next, now)) {
             *now = next;
             return 1;
         }
-    }
+        part /= 2;
+    } while (moved > 1e-9);
     return 0;
 }
 
