@@ -3,7 +3,7 @@
 #ifndef PIA_SPLINE_BERNSTEIN_H
 #define PIA_SPLINE_BERNSTEIN_H
 
-#include "pia/pia.h"
+#include "model.h"
 
 enum {
     PIA_PIECE_COUNT = (PIA_MAX_DEGREE + 1) * (PIA_MAX_DEGREE + 1),         /* coefficients of a piece */
@@ -25,5 +25,11 @@ void pia_bernstein_scales_of(const int degree[2], pia_bernstein_scales *out);
 
 /* Coefficients, of twice the degrees, of the sum of the squares of components [first, last). */
 void pia_bernstein_square(const pia_bernstein_scales *scales, const double *c, int width, int first, int last, double *out);
+
+/* Value and derivatives up to second order at one place of a piece, rows by the enumerators. */
+typedef double pia_bernstein_rows[6][PIA_MAX_WIDTH];
+enum { PIA_S, PIA_SU, PIA_SV, PIA_SUU, PIA_SUV, PIA_SVV };
+/* rational: component width - 1 is a weight, and the others come divided by it. */
+void pia_bernstein_look(const double *c, const int degree[2], int width, int rational, const double at[2], pia_bernstein_rows rows);
 
 #endif

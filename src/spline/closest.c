@@ -5,7 +5,7 @@
 #include "foot.h"
 #include "kernel.h"
 
-enum { GRAIN = 256, BUDGET = 1 << 17 };
+enum { GRAIN = 256 };
 
 static double square_to_box(const pia_foot *f, pia_index node)
 {
@@ -31,8 +31,8 @@ static void descend(pia_foot *f, const pia_block *block)
     pia_block_halve(block, half);
     double square[2] = {square_to_box(f, half[0].node), square_to_box(f, half[1].node)};
     int first = square[1] < square[0];
-    if (square[first] < f->square) descend(f, &half[first]);
-    if (square[1 - first] < f->square) descend(f, &half[1 - first]);
+    if (square[first] < f->minimum.value) descend(f, &half[first]);
+    if (square[1 - first] < f->minimum.value) descend(f, &half[1 - first]);
 }
 
 /* The farthest that the model can be along one axis; INFINITY when that cannot be told in a double. */
@@ -55,16 +55,13 @@ typedef struct sweep {
 static void find_foot(const sweep *s, pia_foot *f, pia_index index, pia_index hint[2])
 {
     int dim = s->model->dim, directions = s->model->directions;
-    f->point = s->points + index * dim;
-    f->scale = reach(&s->pieces, f->point);
-    if (f->scale == 0) f->scale = 1;
-    f->budget = BUDGET;
-    f->square = INFINITY;
+    const double *point = s->points + index * dim;
+    pia_foot_start(f, point, reach(&s->pieces, point));
     pia_block root = pia_block_root(&s->pieces);
     descend(f, &root);
     double at[PIA_MAX_DIM], sum = 0;
     pia_evaluate(s->model, f->parameter, 0, hint, at);
-    for (int c = 0; c < dim; c++) sum += (at[c] - f->point[c]) / f->scale * ((at[c] - f->point[c]) / f->scale);
+    for (int c = 0; c < dim; c++) sum += (at[c] - point[c]) / f->scale * ((at[c] - point[c]) / f->scale);
     for (int d = 0; s->parameters != NULL && d < directions; d++) s->parameters[index * directions + d] = f->parameter[d];
     if (s->distances != NULL) s->distances[index] = f->scale * sqrt(sum);
 }
@@ -73,9 +70,7 @@ static void closest_of_chunk(void *work, pia_index chunk)
 {
     const sweep *s = work;
     pia_foot foot;
-    foot.pieces = &s->pieces;
-    foot.parameter[0] = foot.parameter[1] = 0;
-    pia_bernstein_scales_of(s->model->degree, &foot.scales);
+    pia_foot_open(&s->pieces, &foot);
     pia_index hint[2] = {0, 0}, end = pia_chunk_begin(s->count, s->chunks, chunk + 1);
     for (pia_index i = pia_chunk_begin(s->count, s->chunks, chunk); i < end; i++) find_foot(s, &foot, i, hint);
 }

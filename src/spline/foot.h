@@ -1,30 +1,28 @@
-/* The point of a Bezier piece closest to a given point, found globally. */
+/* The point of a model's Bezier pieces closest to a given point, found globally. */
 #ifndef PIA_SPLINE_FOOT_H
 #define PIA_SPLINE_FOOT_H
 
-#include "bernstein.h"
+#include "minimum.h"
 #include "pieces.h"
 
-/* One search; the caller fills the first group for a point and then searches pieces. Distances are in units of `scale`, so that their
- * squares neither overflow nor vanish. */
+/* Distances are in units of `scale`, so that their squares neither overflow nor vanish. */
 typedef struct pia_foot {
     const pia_pieces *pieces;
     const double *point;
     double scale;
-    pia_index budget;    /* cells that may still be looked at: a bound on the time, far above what points need */
-    double square;       /* squared distance of the best candidate; starts as INFINITY */
-    double parameter[2]; /* its parameters */
-    int settled;         /* 1: Newton found it; 0: it is a corner of a cell */
+    double parameter[2]; /* of the closest point so far */
+    pia_minimum minimum; /* of the squared distance; its value is the best so far */
 
     pia_bernstein_scales scales;
-    double low[2], high[2];                        /* the knots of the piece at hand */
-    double piece[PIA_PIECE_COUNT * PIA_MAX_WIDTH]; /* its control points less the point */
-    double cell[PIA_PIECE_COUNT * PIA_MAX_WIDTH];  /* the same over a part of the piece */
-    double distance[PIA_SQUARE_COUNT];             /* Bernstein coefficients over that part: squared distance times squared weight */
-    double weight[PIA_SQUARE_COUNT];               /* squared weight */
+    double piece[PIA_PIECE_COUNT * PIA_MAX_WIDTH]; /* control points of the piece at hand less the point */
+    double cell[PIA_PIECE_COUNT * PIA_MAX_WIDTH];  /* the same over a part of it */
 } pia_foot;
 
-/* Improves the best candidate by the closest point of a piece, to 1e-12 of the squared distance. */
+/* Once for many points. */
+void pia_foot_open(const pia_pieces *pieces, pia_foot *foot);
+/* For each point, whose distance to the farthest control point along any axis is scale. */
+void pia_foot_start(pia_foot *foot, const double *point, double scale);
+/* Improves parameter and minimum.value by the closest point of a piece. */
 void pia_foot_search(pia_foot *foot, const pia_index piece[2]);
 
 #endif
