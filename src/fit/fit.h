@@ -3,7 +3,8 @@
  *   fit_choice.c      which method, parametrization, placement       fit_open.c     the pipeline itself; open and close
  *   fit_parameters.c  parameters of the rows                         fit_result.c   report, residuals, model
  *   fit_knots.c       knots and operators                            fit_edit.c     edits of a running fit
- *   fit_foot.c        parameters moved to foot points                fit_call.c     the one call */
+ *   fit_foot.c        parameters moved to foot points                fit_call.c     the one call
+ *   fit_constrain.c   points and derivatives met exactly             refine*.c      knots for a tolerance */
 #ifndef PIA_FIT_FIT_H
 #define PIA_FIT_FIT_H
 
@@ -13,6 +14,13 @@
 #include "place.h"
 #include "solve.h"
 #include "summary.h"
+
+/* A constraint as asked, its value copied. */
+typedef struct pia_fit_constraint {
+    pia_constraint asked; /* value is NULL here */
+    double *value;        /* [dim]; NULL: the data point */
+    int released;
+} pia_fit_constraint;
 
 struct pia_fit {
     pia_context *context;
@@ -50,6 +58,10 @@ struct pia_fit {
     pia_collocation line[2];
     pia_op *op;
     pia_iterate iterate;
+    pia_normal *normal; /* of the data; iterate.normal may wrap it with soft constraints */
+    struct pia_constraints *soft_constraints;
+    pia_fit_constraint *constraint; /* [constraint_count], the caller's ids */
+    pia_index constraint_count, constraint_room;
     pia_solve solve;
     pia_values method_values, limiter_values;
     pia_notes notes;
@@ -69,6 +81,9 @@ pia_status pia_fit_operate(pia_fit *fit);
 /* Operator, normal form and iterate for the current knots, in place of the ones before; control points undefined. */
 pia_status pia_fit_assemble(pia_fit *fit);
 pia_status pia_fit_initial(pia_fit *fit);
+/* Knots, and control points, of a model in place of the current ones; between the two calls the fit is assembled. */
+pia_status pia_fit_adopt_knots(pia_fit *fit, const pia_model *start);
+pia_status pia_fit_adopt_control(pia_fit *fit, const pia_model *start);
 /* Rows of a closed direction in the order in which the domain of its knots meets them. */
 pia_status pia_fit_turn(pia_fit *fit, int direction);
 /* Moves the parameters of a curve to the closest points of the iterate nearby, never past the middle to a neighbour. */
@@ -76,6 +91,16 @@ pia_status pia_fit_project(pia_iterate *iterate);
 
 /* Opens without a copy of the data where the method allows: data outlives the fit. */
 pia_status pia_fit_borrow(pia_context *context, const pia_data *data, const pia_fit_options *options, pia_fit **out);
+
+/* The constraints of the options; then the rows that the list makes on the current operator (bind), and their end. */
+pia_status pia_fit_take_constraints(pia_fit *fit);
+pia_status pia_fit_bind(pia_fit *fit);
+void pia_fit_unbind(pia_fit *fit);
+void pia_fit_constraints_close(pia_fit *fit);
+/* iterate.constraint_error of the current control points. */
+void pia_fit_measure_constraints(pia_fit *fit);
+/* After an edit: the loop starts over from the current iterate. */
+pia_status pia_fit_restart(pia_fit *fit);
 
 /* Adds a note; memory that is too short for a note is not an error. */
 void pia_fit_note_add(pia_fit *fit, const char *format, ...) __attribute__((format(printf, 2, 3)));

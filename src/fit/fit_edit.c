@@ -2,28 +2,46 @@
 #include "fit.h"
 
 #include "number.h"
+#include "options.h"
 
 #include <math.h>
 #include <string.h>
 
 /* After an edit the errors are unknown, and history of accelerated methods no longer fits the problem. */
-static pia_status restart(pia_fit *fit)
+pia_status pia_fit_restart(pia_fit *fit)
 {
     return pia_solve_restart(&fit->solve, &fit->method_values, &fit->limiter_values);
 }
 
-/* The normal form of the data as they are now. */
-static pia_status renew_normal(pia_fit *fit)
+/* The normal form and the constraints after a change of one row. */
+static pia_status refresh(pia_fit *fit, pia_index row)
 {
     pia_iterate *iterate = &fit->iterate;
-    if (iterate->normal == NULL) return PIA_OK;
-    pia_normal *renewed;
-    pia_status status = pia_normal_open(fit->op, &iterate->targets, &renewed);
-    if (status != PIA_OK) return status;
-    pia_normal_close(iterate->normal);
-    iterate->normal = renewed;
-    iterate->right_norm = sqrt(pia_iterate_dot(iterate, renewed->right, renewed->right));
-    return PIA_OK;
+    pia_status status = PIA_OK;
+    if (fit->normal != NULL) {
+        pia_normal_refresh(fit->normal, &iterate->targets, row, row);
+        iterate->right_norm = sqrt(pia_iterate_dot(iterate, fit->normal->right, fit->normal->right));
+    }
+    if (fit->constraint_count > 0) status = pia_fit_bind(fit);
+    return status == PIA_OK ? pia_fit_restart(fit) : status;
+}
+
+/* Rows or weights have changed shape: operator and normal form anew, control points, frozen ones included, as they were. */
+static pia_status reassemble(pia_fit *fit)
+{
+    pia_index cols = fit->op->cols, size = cols * fit->dim;
+    double *points = pia_take(fit->context, size, sizeof *points);
+    unsigned char *frozen = fit->op->frozen;
+    if (points == NULL) return PIA_E_MEMORY;
+    fit->op->frozen = NULL;
+    memcpy(points, fit->iterate.points, (size_t)size * sizeof *points);
+    pia_status status = pia_fit_assemble(fit);
+    if (status == PIA_OK) memcpy(fit->iterate.points, points, (size_t)size * sizeof *points);
+    for (pia_index c = 0; status == PIA_OK && frozen != NULL && c < cols; c++) status = pia_op_freeze(fit->op, c, frozen[c]);
+    pia_give(fit->context, points);
+    pia_give(fit->context, frozen);
+    if (status == PIA_OK) status = pia_fit_bind(fit);
+    return status == PIA_OK ? pia_fit_restart(fit) : status;
 }
 
 static int set_rule(pia_fit *fit, const char *name, double number)
@@ -55,7 +73,7 @@ pia_status pia_fit_set(pia_fit *fit, const char *name, const char *value)
     if (end != NULL && *end == '\0' && number >= 0 && number <= 9e18 && set_rule(fit, name, number)) return PIA_OK;
     const pia_method *method = fit->solve.method;
     pia_status status = pia_values_set(fit->context, method->name, method->parameters, name, value, &fit->method_values);
-    return status == PIA_OK ? restart(fit) : status;
+    return status == PIA_OK ? pia_fit_restart(fit) : status;
 }
 
 /* The row used for a data row; -1 where it was dropped or never there. */
@@ -83,8 +101,130 @@ pia_status pia_fit_move_point(pia_fit *fit, pia_index data_row, const double *po
     for (int d = 0; d < fit->dim; d++)
         if (point == NULL || !isfinite(point[d])) return pia_fail(fit->context, PIA_E_DATA, "the new point is not finite");
     memcpy(fit->own_points + row * fit->dim, point, (size_t)fit->dim * sizeof(double));
-    status = renew_normal(fit);
-    return status == PIA_OK ? restart(fit) : status;
+    return refresh(fit, row);
+}
+
+pia_status pia_fit_weigh_point(pia_fit *fit, pia_index data_row, double weight)
+{
+    pia_index row;
+    if (fit->square) return pia_fail(fit->context, PIA_E_ARGUMENT, "weights do not change an interpolation; use least squares");
+    if (!(weight >= 0) || isinf(weight)) return pia_fail(fit->context, PIA_E_DATA, "weight %g is not finite and >= 0", weight);
+    pia_status status = find_row(fit, data_row, &row);
+    if (status != PIA_OK) return status;
+    if (fit->weights != NULL) {
+        fit->weights[row] = weight;
+        return refresh(fit, row);
+    }
+    fit->weights = pia_take(fit->context, fit->rows, sizeof(double));
+    if (fit->weights == NULL) return PIA_E_MEMORY;
+    for (pia_index i = 0; i < fit->rows; i++) fit->weights[i] = i == row ? weight : 1;
+    return reassemble(fit);
+}
+
+/* A row between the sorted ones of a curve; scattered rows go to the end. */
+static void insert_row(pia_fit *fit, const double *point, const double *parameters, double weight, pia_index data_row)
+{
+    pia_index at = fit->rows, dim = fit->dim, wide = fit->kind == PIA_SCATTERED ? 2 : 1;
+    while (fit->kind == PIA_CURVE && at > 0 && fit->parameter[0][at - 1] > parameters[0]) at--;
+    size_t later = (size_t)(fit->rows - at);
+    memmove(fit->own_points + (at + 1) * dim, fit->own_points + at * dim, later * (size_t)dim * sizeof(double));
+    memmove(fit->parameter[0] + (at + 1) * wide, fit->parameter[0] + at * wide, later * (size_t)wide * sizeof(double));
+    memmove(fit->row + at + 1, fit->row + at, later * sizeof *fit->row);
+    if (fit->weights != NULL) {
+        memmove(fit->weights + at + 1, fit->weights + at, later * sizeof(double));
+        fit->weights[at] = weight;
+    }
+    memcpy(fit->own_points + at * dim, point, (size_t)dim * sizeof(double));
+    memcpy(fit->parameter[0] + at * wide, parameters, (size_t)wide * sizeof(double));
+    fit->row[at] = data_row;
+    fit->rows++;
+    fit->count[0]++;
+}
+
+static pia_status grow_array(pia_fit *fit, double **array, pia_index count, pia_index more)
+{
+    double *larger = pia_take(fit->context, count + more, sizeof *larger);
+    if (larger == NULL) return PIA_E_MEMORY;
+    memcpy(larger, *array, (size_t)count * sizeof *larger);
+    pia_give(fit->context, *array);
+    *array = larger;
+    return PIA_OK;
+}
+
+static pia_status make_room(pia_fit *fit, pia_index more)
+{
+    pia_index wide = fit->kind == PIA_SCATTERED ? 2 : 1;
+    pia_status status = pia_fit_own_rows(fit);
+    pia_index *row = status == PIA_OK ? pia_take(fit->context, fit->rows + more, sizeof *row) : NULL;
+    if (row == NULL) return PIA_E_MEMORY;
+    memcpy(row, fit->row, (size_t)fit->rows * sizeof *row);
+    pia_give(fit->context, fit->row);
+    fit->row = row;
+    status = grow_array(fit, &fit->own_points, fit->rows * fit->dim, more * fit->dim);
+    fit->points = fit->own_points;
+    if (status == PIA_OK) status = grow_array(fit, &fit->parameter[0], fit->rows * wide, more * wide);
+    if (status == PIA_OK && fit->weights != NULL) status = grow_array(fit, &fit->weights, fit->rows, more);
+    return status;
+}
+
+static pia_status check_more(pia_fit *fit, const pia_data *more)
+{
+    pia_context *context = fit->context;
+    pia_index wide = fit->kind == PIA_SCATTERED ? 2 : 1;
+    if (fit->square || fit->kind == PIA_GRID || fit->function_graph)
+        return pia_fail(context, PIA_E_ARGUMENT, "rows can be added to least-squares curves and scattered surfaces only");
+    if (more->kind != fit->kind || more->dim != fit->dim || more->points == NULL || more->parameters == NULL || more->count[0] < 1)
+        return pia_fail(context, PIA_E_SHAPE, "added rows need the kind and the %d components of the fit, and given parameters",
+                        fit->dim);
+    for (pia_index i = 0; i < more->count[0]; i++) {
+        for (int d = 0; d < fit->dim; d++)
+            if (!isfinite(more->points[i * fit->dim + d]))
+                return pia_fail(context, PIA_E_DATA, "added row %lld: component %d is not finite", (long long)i, d);
+        for (int d = 0; d < wide; d++) {
+            double t = more->parameters[i * wide + d], low = fit->knots[d][fit->degree[d]], high = fit->knots[d][fit->full[d]];
+            if (!(t >= low && t <= high))
+                return pia_fail(context, PIA_E_DATA, "added row %lld: parameter %g lies outside the domain [%g, %g]", (long long)i, t,
+                                low, high);
+        }
+        if (more->weights != NULL && !(more->weights[i] >= 0 && isfinite(more->weights[i])))
+            return pia_fail(context, PIA_E_DATA, "added row %lld: weight %g is not finite and >= 0", (long long)i, more->weights[i]);
+    }
+    return PIA_OK;
+}
+
+pia_status pia_fit_add_points(pia_fit *fit, const pia_data *more)
+{
+    pia_data data;
+    pia_data_init(&data);
+    pia_status status = pia_options_read(fit->context, "pia_data", &data, sizeof data, more);
+    if (status == PIA_OK) status = check_more(fit, &data);
+    if (status == PIA_OK) status = make_room(fit, data.count[0]);
+    if (status != PIA_OK) return status;
+    pia_index wide = fit->kind == PIA_SCATTERED ? 2 : 1;
+    for (pia_index i = 0; i < data.count[0]; i++)
+        insert_row(fit, data.points + i * fit->dim, data.parameters + i * wide, data.weights != NULL ? data.weights[i] : 1,
+                   fit->given + i);
+    fit->given += data.count[0];
+    return reassemble(fit);
+}
+
+pia_status pia_fit_insert_knot(pia_fit *fit, int direction, double knot)
+{
+    if (fit->square)
+        return pia_fail(fit->context, PIA_E_ARGUMENT, "an interpolation has as many control points as data; use least squares");
+    if (direction < 0 || direction >= fit->directions)
+        return pia_fail(fit->context, PIA_E_ARGUMENT, "direction %d does not exist here", direction);
+    if (fit->op->frozen != NULL) pia_fit_note_add(fit, "control points were freed: a knot was inserted");
+    pia_model *now = NULL, *finer = NULL;
+    pia_status status = pia_fit_model(fit, &now);
+    if (status == PIA_OK) status = pia_model_insert_knots(fit->context, now, direction, &knot, 1, &finer);
+    if (status == PIA_OK) status = pia_fit_adopt_knots(fit, finer);
+    if (status == PIA_OK) status = pia_fit_assemble(fit);
+    if (status == PIA_OK) status = pia_fit_adopt_control(fit, finer);
+    if (status == PIA_OK) status = pia_fit_bind(fit);
+    pia_model_destroy(now);
+    pia_model_destroy(finer);
+    return status == PIA_OK ? pia_fit_restart(fit) : status;
 }
 
 pia_status pia_fit_freeze(pia_fit *fit, const pia_index *control, pia_index count, int frozen)
@@ -96,5 +236,5 @@ pia_status pia_fit_freeze(pia_fit *fit, const pia_index *control, pia_index coun
     pia_status status = PIA_OK;
     for (pia_index i = 0; i < count && status == PIA_OK; i++)
         status = pia_op_freeze(fit->op, pia_op_unknown(fit->op, control[i]), frozen);
-    return status == PIA_OK ? restart(fit) : status;
+    return status == PIA_OK ? pia_fit_restart(fit) : status;
 }

@@ -3,6 +3,7 @@
 
 #include "knots.h"
 #include "model.h"
+#include "op_scatter.h"
 
 #include <math.h>
 #include <string.h>
@@ -10,6 +11,7 @@
 static pia_status take_knots(pia_fit *fit, int d, pia_index full)
 {
     fit->full[d] = full;
+    pia_give(fit->context, fit->knots[d]);
     fit->knots[d] = pia_take(fit->context, full + fit->degree[d] + 1, sizeof(double));
     return fit->knots[d] != NULL ? PIA_OK : PIA_E_MEMORY;
 }
@@ -78,9 +80,8 @@ static pia_status given_direction(pia_fit *fit, int d, const double *knots, pia_
     return status;
 }
 
-static pia_status start_knots(pia_fit *fit)
+pia_status pia_fit_adopt_knots(pia_fit *fit, const pia_model *start)
 {
-    const pia_model *start = fit->options.start;
     double *knots[2] = {NULL, NULL};
     if (start->directions != fit->directions || start->dim != fit->dim + fit->function_graph || start->rational)
         return pia_fail(fit->context, PIA_E_SHAPE,
@@ -197,7 +198,7 @@ pia_status pia_fit_place(pia_fit *fit)
 {
     pia_status status = PIA_OK;
     if (fit->options.start != NULL) {
-        status = start_knots(fit);
+        status = pia_fit_adopt_knots(fit, fit->options.start);
     } else {
         for (int d = 0; d < fit->directions && status == PIA_OK; d++) {
             if (fit->options.knots[0] != NULL)
@@ -242,7 +243,9 @@ pia_status pia_fit_operate(pia_fit *fit)
 {
     pia_status status = PIA_OK;
     int keep_values = (fit->solve.method->needs & PIA_NEEDS_ROWS) != 0 || fit->kind == PIA_GRID;
-    if (fit->kind == PIA_SCATTERED) return pia_fail(fit->context, PIA_E_UNAVAILABLE, "scattered points cannot be fitted yet");
+    if (fit->kind == PIA_SCATTERED)
+        return pia_op_scatter_open(fit->context, fit->degree, fit->map, (const double *const *)fit->knots, fit->full, fit->parameter[0],
+                                   fit->rows, fit->weights, fit->dim, &fit->op);
     for (int d = 0; d < fit->directions && status == PIA_OK; d++) {
         status = pia_collocation_open(fit->context, fit->degree[d], fit->map[d], cyclic_offset(fit, d), fit->knots[d], fit->full[d],
                                       fit->parameter[d], fit->count[d], keep_values, &fit->line[d]);

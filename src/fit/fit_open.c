@@ -82,8 +82,10 @@ static void set_rules(pia_fit *fit)
 static void drop_assembly(pia_fit *fit)
 {
     pia_iterate *iterate = &fit->iterate;
-    pia_normal_close(iterate->normal);
+    pia_fit_unbind(fit);
+    pia_normal_close(fit->normal);
     pia_op_close(fit->op);
+    fit->normal = NULL;
     fit->op = NULL;
     for (int d = 0; d < 2; d++) pia_collocation_close(fit->context, &fit->line[d]);
     pia_give(fit->context, iterate->points);
@@ -106,8 +108,9 @@ static pia_status take_iterate(pia_fit *fit)
     if (iterate->points == NULL || iterate->adjust == NULL) return PIA_E_MEMORY;
     unsigned needs = fit->solve.method->needs;
     if (!fit->square) {
-        pia_status status = pia_normal_open(fit->op, &iterate->targets, &iterate->normal);
+        pia_status status = pia_normal_open(fit->op, &iterate->targets, &fit->normal);
         if (status != PIA_OK && status != PIA_E_UNAVAILABLE) return status;
+        iterate->normal = fit->normal;
     }
     int fused = fit->solve.method->step != NULL && fit->solve.limiter == NULL;
     if (((needs & PIA_NEEDS_ROWS) != 0 && !fused) || (!fit->square && iterate->normal == NULL) || fit->refining) {
@@ -166,6 +169,8 @@ static pia_status open_stages(pia_fit *fit, const pia_data *data)
     if (status == PIA_OK) status = pia_fit_assemble(fit);
     if (status == PIA_OK) status = freeze_asked(fit);
     if (status == PIA_OK) status = pia_fit_initial(fit);
+    if (status == PIA_OK) status = pia_fit_take_constraints(fit);
+    if (status == PIA_OK) status = pia_fit_bind(fit);
     if (status != PIA_OK) return status;
     set_rules(fit);
     fit->solve.iterate = &fit->iterate;
@@ -211,6 +216,7 @@ void pia_fit_close(pia_fit *fit)
     if (fit == NULL) return;
     pia_context *context = fit->context;
     pia_solve_end(&fit->solve);
+    pia_fit_constraints_close(fit);
     drop_assembly(fit);
     for (int d = 0; d < 2; d++) {
         pia_give(context, fit->knots[d]);

@@ -49,6 +49,7 @@ pia_status pia_fit_report(pia_fit *fit, pia_report *report)
     const pia_iterate *iterate = &fit->iterate;
     pia_report full;
     pia_iterate_measure(&fit->iterate);
+    pia_fit_measure_constraints(fit);
     describe(fit, &full);
     full.iterations = iterate->iteration;
     full.stop = fit->solve.stop;

@@ -76,9 +76,8 @@ static pia_status from_means(pia_fit *fit)
     return PIA_OK;
 }
 
-static pia_status from_model(pia_fit *fit)
+pia_status pia_fit_adopt_control(pia_fit *fit, const pia_model *start)
 {
-    const pia_model *start = fit->options.start;
     int skip = fit->function_graph, wide = start->dim;
     double *knots[2] = {NULL, NULL};
     pia_index fulls = start->control[0] * start->control[1];
@@ -97,7 +96,7 @@ static pia_status from_model(pia_fit *fit)
 
 pia_status pia_fit_initial(pia_fit *fit)
 {
-    if (fit->options.start != NULL) return from_model(fit);
+    if (fit->options.start != NULL) return pia_fit_adopt_control(fit, fit->options.start);
     if (fit->kind == PIA_SCATTERED || fit->has_holes) return from_means(fit);
     from_data(fit);
     return PIA_OK;

@@ -1,7 +1,10 @@
 /* The limit in one step: the banded (curve) or Kronecker (grid) interpolation equations, or the normal equations of least squares,
  * solved for the correction of the current P. A second step is taken where the first one left more than rounding. */
+#include "constraint.h"
 #include "method.h"
 #include "square.h"
+
+#include <math.h>
 
 enum { ENOUGH_STEPS = 4 };
 
@@ -20,6 +23,11 @@ static double remaining_error(pia_iterate *iterate)
 static double remaining_gradient(pia_iterate *iterate)
 {
     pia_iterate_gradient(iterate, iterate->adjust);
+    if (iterate->constraints != NULL) { /* what the constraints forbid does not count, and does not change the constrained solution */
+        pia_constraints_reduce(iterate->constraints, iterate->adjust);
+        double norm = sqrt(pia_iterate_dot(iterate, iterate->adjust, iterate->adjust));
+        iterate->relative_gradient = iterate->right_norm > 0 ? norm / iterate->right_norm : norm;
+    }
     return iterate->relative_gradient;
 }
 
@@ -32,7 +40,9 @@ static pia_status solve(pia_iterate *iterate, double steps)
     pia_status status = steps == 0 ? iterate->normal->class->factor(iterate->normal) : PIA_OK;
     if (status == PIA_OK) iterate->normal->class->solve(iterate->normal, iterate->adjust, iterate->dim);
     pia_op_mask(iterate->op, iterate->adjust, iterate->dim);
-    return status;
+    if (status != PIA_OK || iterate->constraints == NULL) return status;
+    if (steps == 0) status = pia_constraints_factor(iterate->constraints, iterate->normal);
+    return status == PIA_OK ? pia_constraints_correct(iterate->constraints, iterate->normal, iterate->points, iterate->adjust) : status;
 }
 
 static pia_status adjust(pia_iterate *iterate, void *state)

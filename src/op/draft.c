@@ -283,7 +283,7 @@ static void put_piece(pia_draft *draft, pia_index first, int removed, const doub
 {
     int fewer = removed - inserted;
     pia_index knots = draft->count + (draft->closed ? 0 : draft->degree + 1);
-    memcpy(draft->knots + first, added, (size_t)inserted * sizeof(double));
+    for (int i = 0; i < inserted; i++) draft->knots[first + i] = added[i];
     memmove(draft->knots + first + inserted, draft->knots + first + removed, (size_t)(knots - first - removed) * sizeof(double));
     memmove(draft->tried + first + inserted, draft->tried + first + removed, (size_t)(knots - first - removed));
     pia_index near = w->count + draft->degree, from = first > near ? first - near : 0;
