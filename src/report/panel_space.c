@@ -139,7 +139,7 @@ static void project(const pia_view *view, const double *at, pia_index count, pia
     for (pia_index i = 0; i < count; i++) spots[i] = pia_view_spot(view, at + 3 * i);
 }
 
-/* All points and curves on the page; returns how many spots that makes. */
+/* All points and curves on the page; returns how many spots a label had better leave visible. A surface may be covered a little. */
 static pia_index find_busy(const pia_scene *scene, const pia_view *view, pia_spot *spots)
 {
     pia_index count = scene->point_count;
@@ -149,7 +149,7 @@ static pia_index find_busy(const pia_scene *scene, const pia_view *view, pia_spo
         project(view, scene->figure[f].at, scene->figure[f].samples[0].count, spots + count);
         count += scene->figure[f].samples[0].count;
     }
-    return count;
+    return scene->surface ? 0 : count;
 }
 
 /* On a surface many dots would hide its colours. */
@@ -236,7 +236,7 @@ pia_status pia_space_draw(pia_canvas *canvas, const pia_scene *scene, pia_box pa
 pia_shade pia_space_shade(const pia_scene *scene)
 {
     if (!scene->surface || paint_of(scene) != PIA_PAINT_HEIGHT) return (pia_shade){0};
-    return (pia_shade){1, PIA_RAMP_HEIGHT, scene->low[2], scene->high[2], scene->figure[0].info.dim == 1 ? "value" : "z"};
+    return (pia_shade){1, PIA_RAMP_HEIGHT, scene->low[2], scene->high[2], scene->figure[0].info.dim == 1 ? "value" : "height z"};
 }
 
 static void surface_legend(const pia_scene *scene, pia_legend *legend)

@@ -164,7 +164,7 @@ static void draw_axis(pia_canvas *canvas, const pia_view *view, int axis, const 
     pia_tick_title(ticks, name, text);
     type.size = PIA_TEXT_SIZE;
     type.colour = pia_style_text;
-    if (out.x < -0.9) { /* beside an upright edge there is little room */
+    if (out.x < -0.9 && canvas->text_width(canvas, text, type) > BESIDE / 2) { /* beside an upright edge there is little room */
         type.angle = 90;
         type.across = 0.5;
         type.down = 1;
