@@ -13,6 +13,9 @@ typedef struct pia_limiter {
     /* Edits D in place; sets iterate->stalled when nothing may move any more. */
     pia_status (*limit)(pia_iterate *iterate, void *state);
     void (*end)(pia_iterate *iterate, void *state);
+    /* As in a method's record. NULL: begin makes all of the state. */
+    void (*history)(pia_iterate *iterate, void *state, void (*visit)(void *user, const char *name, double *numbers, pia_index count),
+                    void *user);
 } pia_limiter;
 
 /* The registry, collected from the files limit_*.c; NULL past the end. */

@@ -42,6 +42,7 @@ pia_status pia_solve_begin(pia_solve *solve, const pia_values *method_values, co
     solve->best_iteration = iterate->iteration;
     if (!solve->begun) solve->start_error = NAN;
     solve->stop = PIA_STOP_NONE;
+    solve->first_iteration = iterate->iteration;
     solve->begun = 1;
     if (status == PIA_OK && solve->method->begin != NULL) status = solve->method->begin(iterate, method_values, solve->method_state);
     if (status == PIA_OK && solve->limiter != NULL && solve->limiter->begin != NULL)

@@ -10,7 +10,7 @@
 
 typedef struct pia_rules {
     double tolerance;            /* largest deviation; 0: none */
-    pia_index iterations;        /* most updates in all */
+    pia_index iterations;        /* most updates since the start or the last edit */
     double change;               /* stop when no control point moves more, units of the points; 0: never */
     double gradient;             /* stop at this relative gradient; 0: never */
     double time_limit;           /* seconds in all; 0: none */
@@ -35,6 +35,7 @@ typedef struct pia_solve {
     double last_error;
     double best_error; /* smallest error so far, and when it was reached */
     pia_index best_iteration;
+    pia_index first_iteration; /* where it began, or was last edited: the count that max_iterations limits starts here */
     int begun;
 } pia_solve;
 

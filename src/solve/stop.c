@@ -14,7 +14,7 @@ pia_stop pia_stop_before(const pia_solve *solve)
     const pia_iterate *iterate = solve->iterate;
     const pia_rules *rules = &solve->rules;
     if (rules->tolerance > 0 && iterate->errors_known && iterate->errors.max <= rules->tolerance) return PIA_STOP_TOLERANCE;
-    if (iterate->iteration >= rules->iterations) return PIA_STOP_ITERATIONS;
+    if (iterate->iteration - solve->first_iteration >= rules->iterations) return PIA_STOP_ITERATIONS;
     if (rules->time_limit > 0 && solve->seconds >= rules->time_limit) return PIA_STOP_TIME;
     return PIA_STOP_NONE;
 }
