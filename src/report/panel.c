@@ -82,13 +82,14 @@ static pia_box plate_at(pia_spot spot, double width, int number, const pia_box *
     return (pia_box){left, middle - 7, left + width, middle + 7};
 }
 
-/* The plate inside the page that hides least. */
+/* The plate inside the page that hides least; of equal ones the one towards the middle of the page, where there are no axes. */
 static pia_box choose_plate(pia_spot spot, const pia_spot *busy, pia_index count, double width, const pia_box *page)
 {
-    pia_box best = plate_at(spot, width, 0, page);
+    int inward = (spot.x > 0.5 * (page->left + page->right)) + 2 * (spot.y > 0.5 * (page->top + page->bottom));
+    pia_box best = plate_at(spot, width, inward, page);
     pia_index least = count + 1;
     for (int number = 0; number < 12; number++) {
-        pia_box plate = plate_at(spot, width, number, page);
+        pia_box plate = plate_at(spot, width, number ^ inward, page);
         pia_index hidden = covered(busy, count, &plate);
         if (plate.top < page->top || plate.bottom > page->bottom || hidden >= least) continue;
         least = hidden;
