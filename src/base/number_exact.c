@@ -89,19 +89,11 @@ double pia_number_exact(const char *digits, const char *end, int64_t exponent, d
 {
     const uint64_t infinite = (uint64_t)2047 << 52;
     whole number = read_digits(digits, end, &exponent);
-    uint64_t bits, start;
+    uint64_t bits;
     memcpy(&bits, &estimate, sizeof bits);
-    if (bits >= infinite) bits = infinite - 1;
-    start = bits;
-    while (bits < infinite) {
+    for (; bits < infinite; bits++) {
         int sign = compare_with_middle_above(&number, exponent, bits);
         if (sign < 0 || (sign == 0 && bits % 2 == 0)) break;
-        bits++;
-    }
-    while (bits == start && bits > 0) {
-        int sign = compare_with_middle_above(&number, exponent, bits - 1);
-        if (sign > 0 || (sign == 0 && bits % 2 == 0)) break;
-        start = --bits;
     }
     double value;
     memcpy(&value, &bits, sizeof value);

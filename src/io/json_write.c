@@ -43,27 +43,14 @@ static void write_knots(pia_output *output, const pia_model *model, int directio
     pia_output_text(output, ",\n");
 }
 
-/* The x for which the product x * weight, as a reader computes it, is `stored` again: the quotient or a near neighbour. Where none
- * exists the quotient is the best there is. */
-static double divide_reversibly(double stored, double weight)
-{
-    double quotient = stored / weight, low = quotient, high = quotient;
-    for (int i = 0; i < 3; i++) {
-        if (low * weight == stored) return low;
-        if (high * weight == stored) return high;
-        low = nextafter(low, -INFINITY);
-        high = nextafter(high, INFINITY);
-    }
-    return quotient;
-}
-
+/* Cartesian points: the quotient x of a stored product w x gives the same product again when it is read. */
 static void write_points(pia_output *output, const pia_model *model, pia_index count, int width)
 {
     double point[PIA_MAX_DIM];
     pia_output_text(output, "     \"control_points\": {\"points\": [");
     for (pia_index i = 0; i < count; i++) {
         const double *stored = model->points + i * width;
-        for (int c = 0; c < model->dim; c++) point[c] = model->rational ? divide_reversibly(stored[c], stored[model->dim]) : stored[c];
+        for (int c = 0; c < model->dim; c++) point[c] = model->rational ? stored[c] / stored[model->dim] : stored[c];
         pia_output_text(output, i > 0 ? ",\n       " : "\n       ");
         pia_json_write_reals(output, point, model->dim);
     }

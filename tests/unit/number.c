@@ -99,6 +99,29 @@ static void reads_middles_of_doubles_as_strtod_does(void **state)
     }
 }
 
+/* A middle followed by zeros and a last 1 rounds up, by however little it lies above. */
+static void reads_middles_with_more_behind_as_strtod_does(void **state)
+{
+    (void)state;
+    uint64_t random = 11;
+    static char middle[2048], text[4096];
+    for (int i = 0; i < 500; i++) {
+        uint64_t bits = next_random(&random) >> 1;
+        if (i % 2 == 0) bits >>= 11;
+        if (bits + 1 >= bits_of(INFINITY)) continue;
+        print_middle(middle, sizeof middle, bits);
+        char *exponent = strchr(middle, 'e');
+        if (exponent == NULL || strchr(middle, '.') == NULL) continue;
+        int digits = (int)(exponent - middle);
+        for (int zeros = 0; zeros < 1200; zeros += 171) {
+            snprintf(text, sizeof text, "%.*s%0*d%s", digits, middle, zeros + 1, 1, exponent);
+            check_against_strtod(text);
+            snprintf(text, sizeof text, "%.*s%0*d%s", digits, middle, zeros + 1, 0, exponent);
+            check_against_strtod(text);
+        }
+    }
+}
+
 static void reads_hard_cases_as_strtod_does(void **state)
 {
     (void)state;
@@ -279,6 +302,7 @@ int main(void)
         cmocka_unit_test(reads_random_doubles_as_strtod_does),
         cmocka_unit_test(reads_random_digits_as_strtod_does),
         cmocka_unit_test(reads_middles_of_doubles_as_strtod_does),
+        cmocka_unit_test(reads_middles_with_more_behind_as_strtod_does),
         cmocka_unit_test(reads_hard_cases_as_strtod_does),
         cmocka_unit_test(reads_very_long_numbers_as_strtod_does),
         cmocka_unit_test(reads_what_is_not_finite),
