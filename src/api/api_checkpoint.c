@@ -60,15 +60,15 @@ static void put_limit_history(void *user, const char *name, double *numbers, pia
     array(user, section, PIA_SECTION_DOUBLE, numbers, count);
 }
 
-enum { INDEX_COUNT = 24 };
+enum { INDEX_COUNT = 25 };
 
 static void shape(walk *w, pia_fit *fit)
 {
-    pia_index v[INDEX_COUNT] = {fit->kind,      fit->directions, fit->dim,       fit->function_graph,  fit->count[0],
-                                fit->count[1],  fit->rows,       fit->given,     fit->dropped_count,   fit->has_holes,
-                                fit->square,    fit->degree[0],  fit->degree[1], fit->closed[0],       fit->closed[1],
-                                fit->full[0],   fit->full[1],    fit->map[0],    fit->map[1],          fit->offset[0],
-                                fit->offset[1], fit->refining,   fit->round,     fit->constraint_count};
+    pia_index v[INDEX_COUNT] = {fit->kind,      fit->directions, fit->dim,       fit->function_graph,   fit->count[0],
+                                fit->count[1],  fit->rows,       fit->given,     fit->dropped_count,    fit->has_holes,
+                                fit->square,    fit->degree[0],  fit->degree[1], fit->closed[0],        fit->closed[1],
+                                fit->full[0],   fit->full[1],    fit->map[0],    fit->map[1],           fit->offset[0],
+                                fit->offset[1], fit->refining,   fit->round,     fit->constraint_count, fit->parameters_moved};
     array(w, "shape", PIA_SECTION_INDEX, v, INDEX_COUNT);
     if (w->writer != NULL || w->status != PIA_OK) return;
     fit->kind = (pia_kind)v[0];
@@ -83,6 +83,7 @@ static void shape(walk *w, pia_fit *fit)
     fit->refining = (int)v[21];
     fit->round = v[22];
     fit->constraint_count = v[23];
+    fit->parameters_moved = (int)v[24];
     for (int d = 0; d < 2; d++) {
         fit->count[d] = v[4 + d];
         fit->degree[d] = (int)v[11 + d];

@@ -50,6 +50,7 @@ struct pia_fit {
     const pia_placement *placement;             /* NULL: given */
     double *parameter[2];                       /* [count] a direction; scattered: u,v pairs in [0]; owned unless borrowed_parameters */
     int borrowed_parameters;
+    int parameters_moved;     /* they are foot points now */
     double *knots[2]; /* [full + degree + 1] */
     pia_index full[2];
     pia_map map[2];

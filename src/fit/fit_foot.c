@@ -42,6 +42,7 @@ pia_status pia_fit_project(pia_iterate *iterate)
         before = old;
     }
     pia_collocation_rebucket(line);
+    fit->parameters_moved = 1;
     iterate->errors_known = 0;
     return PIA_OK;
 }

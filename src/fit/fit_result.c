@@ -147,8 +147,7 @@ static pia_status make_model(pia_fit *fit, pia_model **out)
     return status;
 }
 
-/* Parameters are kept with the model where they cannot be computed again: given or corrected ones, and those of a file that lost rows
- * or was turned. */
+/* Parameters are kept with the model where they cannot be computed again from the points: given and corrected ones. */
 static pia_status attach_summary(pia_fit *fit, pia_model *model)
 {
     const pia_memory *memory = pia_memory_of(fit->context);
@@ -156,8 +155,7 @@ static pia_status attach_summary(pia_fit *fit, pia_model *model)
     double *parameters = NULL;
     pia_status status = pia_fit_report(fit, &summary.report);
     if (status != PIA_OK) return status;
-    pia_index most = 4000000;
-    if (parameter_count(fit) <= most) {
+    if (fit->parametrization == NULL || fit->parameters_moved) {
         parameters = pia_take(fit->context, parameter_count(fit), sizeof *parameters);
         if (parameters == NULL) return PIA_E_MEMORY;
         copy_parameters(fit, parameters);
