@@ -1,0 +1,67 @@
+#include "conjugate.h"
+
+#include "vectors.h"
+
+#include <string.h>
+
+pia_status pia_conjugate_open(pia_iterate *iterate, pia_conjugate *out)
+{
+    pia_status status = pia_product_open(iterate, &out->product);
+    return status == PIA_OK ? pia_vectors_take(iterate, PIA_CG_VECTORS, out->vector) : status;
+}
+
+void pia_conjugate_close(pia_iterate *iterate, pia_conjugate *c)
+{
+    pia_product_close(&c->product);
+    pia_give(iterate->context, c->vector[0]);
+}
+
+/* Sums over the unknowns of each component of x times that of y; coupled: their sum in every component. */
+static void dot_components(const pia_iterate *iterate, const pia_conjugate *c, const double *x, const double *y, double *sums)
+{
+    int dim = iterate->dim;
+    double total = 0;
+    for (int d = 0; d < dim; d++) sums[d] = 0;
+    for (pia_index k = 0; k < iterate->op->cols; k++)
+        for (int d = 0; d < dim; d++) sums[d] += x[k * dim + d] * y[k * dim + d];
+    for (int d = 0; d < dim; d++) total += sums[d];
+    for (int d = 0; d < dim && c->coupled; d++) sums[d] = total;
+}
+
+static void divide(int dim, double *numerator, const double *denominator)
+{
+    for (int d = 0; d < dim; d++) numerator[d] = denominator[d] > 0 ? numerator[d] / denominator[d] : 0;
+}
+
+/* y = x + diag(factor per component) y */
+static void combine(const pia_iterate *iterate, const double *x, const double *factor, double *y)
+{
+    int dim = iterate->dim;
+    for (pia_index k = 0; k < iterate->op->cols; k++)
+        for (int d = 0; d < dim; d++) y[k * dim + d] = x[k * dim + d] + factor[d] * y[k * dim + d];
+}
+
+void pia_conjugate_step(pia_iterate *iterate, pia_conjugate *c, pia_condition *condition, void *user)
+{
+    int dim = iterate->dim;
+    double gamma[PIA_MAX_DIM] = {0}, factor[PIA_MAX_DIM], curvature[PIA_MAX_DIM];
+    double *g = c->vector[PIA_CG_GRADIENT], *search = c->vector[PIA_CG_SEARCH], *image = c->vector[PIA_CG_IMAGE], *z = iterate->adjust;
+    pia_iterate_gradient(iterate, g);
+    condition(iterate, user, g, z);
+    dot_components(iterate, c, g, z, gamma);
+    memcpy(factor, gamma, sizeof gamma);
+    divide(dim, factor, c->gamma);
+    combine(iterate, z, factor, search);
+    memcpy(c->gamma, gamma, sizeof gamma);
+    pia_product_apply(&c->product, search, dim, image);
+    dot_components(iterate, c, search, image, curvature);
+    divide(dim, gamma, curvature);
+    for (pia_index k = 0; k < iterate->op->cols; k++)
+        for (int d = 0; d < dim; d++) iterate->adjust[k * dim + d] = gamma[d] * search[k * dim + d];
+}
+
+void pia_conjugate_visit(pia_iterate *iterate, pia_conjugate *c, void (*visit)(void *, const char *, double *, pia_index), void *user)
+{
+    visit(user, "search", c->vector[PIA_CG_SEARCH], iterate->op->cols * iterate->dim);
+    visit(user, "gamma", c->gamma, PIA_MAX_DIM);
+}
