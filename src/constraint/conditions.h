@@ -48,6 +48,9 @@ struct pia_constraints {
 /* The row in words: "point 17", "derivative 1 at 0.25". Returns text. */
 const char *pia_origin_text(const pia_origin *origin, char text[PIA_ORIGIN_SIZE]);
 
+/* Takes the free component of row i out of value [dim]. */
+void pia_row_across(const pia_constraints *c, pia_index i, double *value);
+
 /* Room for S over the conditions of c. Errors: PIA_E_MEMORY, PIA_E_SIZE. */
 pia_status pia_schur_open(const pia_constraints *c, pia_schur *out);
 void pia_schur_close(const pia_constraints *c, pia_schur *s);

@@ -196,15 +196,25 @@ pia_index pia_constraints_rank(const pia_constraints *c)
     return c->rank;
 }
 
-static void row_residual(const pia_constraints *c, pia_index i, const double *points, double *residual)
+int pia_constraints_coupled(const pia_constraints *c)
 {
-    double along = 0;
-    pia_functional_value(&c->row[i], points, c->dim, residual);
-    for (int d = 0; d < c->dim; d++) residual[d] = c->right[i * c->dim + d] - residual[d];
+    return c->axis != NULL;
+}
+
+void pia_row_across(const pia_constraints *c, pia_index i, double *value)
+{
     if (c->axis == NULL) return;
     const double *axis = c->axis + i * c->dim;
-    for (int d = 0; d < c->dim; d++) along += axis[d] * residual[d];
-    for (int d = 0; d < c->dim; d++) residual[d] -= along * axis[d];
+    double along = 0;
+    for (int d = 0; d < c->dim; d++) along += axis[d] * value[d];
+    for (int d = 0; d < c->dim; d++) value[d] -= along * axis[d];
+}
+
+static void row_residual(const pia_constraints *c, pia_index i, const double *points, double *residual)
+{
+    pia_functional_value(&c->row[i], points, c->dim, residual);
+    for (int d = 0; d < c->dim; d++) residual[d] = c->right[i * c->dim + d] - residual[d];
+    pia_row_across(c, i, residual);
 }
 
 void pia_constraints_residual(const pia_constraints *c, const double *points, double *residual)
@@ -224,6 +234,14 @@ double pia_constraints_violation(const pia_constraints *c, const double *points,
         if (index != NULL) *index = i;
     }
     return sqrt(fmax(worst, 0));
+}
+
+void pia_constraints_multipliers(const pia_constraints *c, double value, double *multipliers)
+{
+    for (pia_index i = 0; i < c->count; i++) {
+        for (int d = 0; d < c->dim; d++) multipliers[i * c->dim + d] = value;
+        pia_row_across(c, i, multipliers + i * c->dim);
+    }
 }
 
 void pia_constraints_add(const pia_constraints *c, const double *multipliers, double factor, double *y)

@@ -31,11 +31,16 @@ void pia_constraints_close(pia_constraints *constraints);
 pia_index pia_constraints_count(const pia_constraints *constraints);
 pia_index pia_constraints_rank(const pia_constraints *constraints);
 
+/* 1 when a direction couples the components: scalars of an iteration are then those of all components together. */
+int pia_constraints_coupled(const pia_constraints *constraints);
+
 /* residual [count x dim] = R - B P, without the free component of directions. */
 void pia_constraints_residual(const pia_constraints *constraints, const double *points, double *residual);
 /* The largest Euclidean length of a row of it; `index` (NULL allowed) receives the row. */
 double pia_constraints_violation(const pia_constraints *constraints, const double *points, pia_index *index);
 
+/* multipliers [count x dim] = value, 0 in the free component of directions. */
+void pia_constraints_multipliers(const pia_constraints *constraints, double value, double *multipliers);
 /* y += factor * B' multipliers, multipliers [count x dim], zero in frozen unknowns. */
 void pia_constraints_add(const pia_constraints *constraints, const double *multipliers, double factor, double *y);
 /* The largest over the unknowns of the sum of |entries| of B in its column: with rows of sum 1 it bounds the eigenvalues of B B'. */

@@ -5,6 +5,21 @@
 #include <string.h>
 
 enum { REFINEMENTS = 3, POWER_ROUNDS = 100 };
+static const double pull = 1e-9; /* of the mean diagonal of H */
+
+/* x := H^-1 x for corrections: unknowns without data, which the normal form leaves out, count as held by a tiny pull to where they are,
+ * so that a constraint inside a gap can still move them. before [cols x dim] is work. */
+static void solve_held(const pia_constraints *c, const pia_normal *normal, double *x, double *before)
+{
+    double mean = 0;
+    int dim = c->dim;
+    memcpy(before, x, (size_t)(c->op->cols * dim) * sizeof *x);
+    normal->class->solve(normal, x, dim);
+    for (pia_index i = 0; i < c->op->cols; i++) mean += normal->diagonal[i] / (double)c->op->cols;
+    for (pia_index i = 0; i < c->op->cols; i++)
+        for (int d = 0; d < dim && !(normal->diagonal[i] > 0); d++) x[i * dim + d] = before[i * dim + d] / (pull * mean);
+    pia_op_mask(c->op, x, dim);
+}
 
 /* Row j of B into column k of y [cols x dim]. */
 static void put_column(const pia_constraints *c, pia_index j, int k, double *y)
@@ -19,15 +34,14 @@ pia_status pia_schur_of_normal(const pia_constraints *c, const pia_normal *norma
 {
     int dim = c->dim;
     pia_index size = c->op->cols * dim;
-    double *y = pia_take(c->context, size, sizeof *y), *column = pia_take(c->context, c->count, (size_t)dim * sizeof *column);
+    double *y = pia_take(c->context, size, 2 * sizeof *y), *column = pia_take(c->context, c->count, (size_t)dim * sizeof *column);
     int ready = y != NULL && column != NULL;
     for (pia_index j = 0; ready && j < c->count; j += dim) {
         int block = (int)(c->count - j < dim ? c->count - j : dim);
         memset(y, 0, (size_t)size * sizeof *y);
         for (int k = 0; k < block; k++) put_column(c, j + k, k, y);
         pia_op_mask(c->op, y, dim);
-        normal->class->solve(normal, y, dim);
-        pia_op_mask(c->op, y, dim);
+        solve_held(c, normal, y, y + size);
         for (pia_index i = 0; i < c->count; i++) {
             double value[PIA_MAX_DIM];
             pia_functional_value(&c->row[i], y, dim, value);
@@ -37,7 +51,7 @@ pia_status pia_schur_of_normal(const pia_constraints *c, const pia_normal *norma
     }
     pia_give(c->context, y);
     pia_give(c->context, column);
-    return ready ? PIA_OK : pia_take_status(c->context, size, sizeof *y);
+    return ready ? PIA_OK : pia_take_status(c->context, size, 2 * sizeof *y);
 }
 
 pia_status pia_constraints_factor(pia_constraints *c, const pia_normal *normal)
@@ -64,16 +78,15 @@ pia_status pia_constraints_factor(pia_constraints *c, const pia_normal *normal)
 pia_status pia_constraints_correct(const pia_constraints *c, const pia_normal *normal, const double *points, double *correction)
 {
     pia_index size = c->op->cols * c->dim;
-    double *y = pia_take(c->context, size, sizeof *y);
-    if (y == NULL) return pia_take_status(c->context, size, sizeof *y);
+    double *y = pia_take(c->context, size, 2 * sizeof *y);
+    if (y == NULL) return pia_take_status(c->context, size, 2 * sizeof *y);
     for (int round = 0; round < REFINEMENTS; round++) {
         for (pia_index i = 0; i < size; i++) y[i] = points[i] + correction[i];
         pia_constraints_residual(c, y, c->left);
         pia_schur_solve(c, &c->direct, c->left, c->multiplier);
         memset(y, 0, (size_t)size * sizeof *y);
         pia_constraints_add(c, c->multiplier, 1, y);
-        normal->class->solve(normal, y, c->dim);
-        pia_op_mask(c->op, y, c->dim);
+        solve_held(c, normal, y, y + size);
         for (pia_index i = 0; i < size; i++) correction[i] += y[i];
     }
     pia_give(c->context, y);
@@ -87,7 +100,7 @@ static double power_round(const pia_constraints *c, const pia_normal *normal, do
     pia_index numbers = c->count * c->dim;
     memset(y, 0, (size_t)(c->op->cols * c->dim) * sizeof *y);
     pia_constraints_add(c, rows, 1, y);
-    normal->class->solve(normal, y, c->dim);
+    solve_held(c, normal, y, y + c->op->cols * c->dim);
     for (pia_index i = 0; i < c->count; i++) pia_functional_value(&c->row[i], y, c->dim, rows + i * c->dim);
     for (pia_index i = 0; i < numbers; i++) square += rows[i] * rows[i];
     double length = sqrt(square);
@@ -98,8 +111,8 @@ static double power_round(const pia_constraints *c, const pia_normal *normal, do
 pia_status pia_constraints_schur_bound(const pia_constraints *c, const pia_normal *normal, double *out)
 {
     pia_index size = c->op->cols * c->dim;
-    double *y = pia_take(c->context, size, sizeof *y), value = 0, before = -1;
-    if (y == NULL) return pia_take_status(c->context, size, sizeof *y);
+    double *y = pia_take(c->context, size, 2 * sizeof *y), value = 0, before = -1;
+    if (y == NULL) return pia_take_status(c->context, size, 2 * sizeof *y);
     for (pia_index i = 0; i < c->count * c->dim; i++) c->left[i] = 1 + 0.1 * (double)(i % 7);
     power_round(c, normal, c->left, y);
     for (int round = 0; round < POWER_ROUNDS && fabs(value - before) > 1e-6 * value; round++) {

@@ -12,15 +12,6 @@ typedef struct soft {
     double *work; /* [cols x dim] */
 } soft;
 
-/* The part of a row's value that counts: all but the free component of a direction. */
-static void constrain(const pia_constraints *c, pia_index i, int dim, double *value)
-{
-    if (c->axis == NULL || dim != c->dim) return;
-    double along = 0;
-    for (int d = 0; d < dim; d++) along += c->axis[i * dim + d] * value[d];
-    for (int d = 0; d < dim; d++) value[d] -= along * c->axis[i * dim + d];
-}
-
 static void multiply(const pia_normal *normal, const double *x, int dim, double *y)
 {
     const soft *s = normal->state;
@@ -28,7 +19,7 @@ static void multiply(const pia_normal *normal, const double *x, int dim, double 
     s->data->class->multiply(s->data, x, dim, y);
     for (pia_index i = 0; i < s->c->count; i++) {
         pia_functional_value(&s->c->row[i], x, dim, value);
-        constrain(s->c, i, dim, value);
+        if (dim == s->c->dim) pia_row_across(s->c, i, value);
         for (int d = 0; d < dim; d++) value[d] *= s->weight;
         pia_functional_add(&s->c->row[i], value, dim, y);
     }

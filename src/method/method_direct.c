@@ -26,7 +26,9 @@ static double remaining_gradient(pia_iterate *iterate)
     if (iterate->constraints != NULL) { /* what the constraints forbid does not count, and does not change the constrained solution */
         pia_constraints_reduce(iterate->constraints, iterate->adjust);
         double norm = sqrt(pia_iterate_dot(iterate, iterate->adjust, iterate->adjust));
-        iterate->relative_gradient = iterate->right_norm > 0 ? norm / iterate->right_norm : norm;
+        if (iterate->right_norm > 0) norm /= iterate->right_norm;
+        double violation = pia_constraints_violation(iterate->constraints, iterate->points, NULL) / iterate->extent;
+        iterate->relative_gradient = fmax(norm, violation);
     }
     return iterate->relative_gradient;
 }

@@ -1,5 +1,6 @@
 #include "solve.h"
 
+#include "constraint.h"
 #include "kernel.h"
 #include "stop.h"
 
@@ -76,6 +77,13 @@ void pia_solve_end(pia_solve *solve)
     pia_trace_clear(pia_memory_of(solve->iterate->context), &solve->trace);
 }
 
+/* What constraints there are is known for every iterate whose errors are. */
+static void measure_constraints(pia_iterate *iterate)
+{
+    if (iterate->constraints != NULL)
+        iterate->constraint_error = pia_constraints_violation(iterate->constraints, iterate->points, NULL);
+}
+
 static pia_status add_trace(pia_solve *solve)
 {
     const pia_iterate *iterate = solve->iterate;
@@ -98,6 +106,7 @@ static pia_status note_errors(pia_solve *solve)
 {
     pia_iterate *iterate = solve->iterate;
     double error = iterate->errors.max;
+    measure_constraints(iterate);
     if (isnan(solve->start_error)) solve->start_error = error;
     if (solve->last_error > 0 && error > 1e-12 * iterate->extent) {
         double rate = error / solve->last_error;
@@ -226,6 +235,7 @@ pia_status pia_solve_step(pia_solve *solve, pia_index iterations)
     }
     if (status != PIA_OK) return status;
     pia_iterate_measure(iterate);
+    measure_constraints(iterate);
     if (isnan(solve->start_error)) solve->start_error = iterate->errors.max;
     if (solve->rules.trace_every > 0) status = add_trace(solve);
     solve->seconds = pia_seconds() - start;

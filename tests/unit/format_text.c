@@ -31,12 +31,19 @@ static void every_delimiter_is_recognised(void **state)
 static void headers_titles_comments_and_marks_are_skipped(void **state)
 {
     static const double expected[] = {1, 2, 3, 4};
-    static const char *const text[] = {"x,y\n1,2\n3,4\n",          "\357\273\277x,y\n1,2\n3,4\n",
-                                       "\357\273\2771,2\n3,4\n",   "NACA 2412\n1 2\n3 4\n",
-                                       "23 AIRFOIL\n1 2\n3 4",     "2\n1 2\n3 4\n",
-                                       "# one\n\n# 5 6\n1 2\n3 4", "prose\nb1 = 1 2\nb2 = 3 4\nthen\n\n1 2\n3 4",
-                                       "1,2 # a\n#b\n3,4#c\n#d",   "\"x, m\",\"y\"\n\"1\",\"2\"\n\"3\", \"4\"\n",
-                                       "x;y\r\n1;2\r\n3;4",        "t,1\n1,2\n3,4\n"};
+    static const char *const text[] = {"x,y\n1,2\n3,4\n",
+                                       "\xef\xbb\xbfx,y\n1,2\n3,4\n",
+                                       "\xef\xbb\xbf"
+                                       "1,2\n3,4\n",
+                                       "NACA 2412\n1 2\n3 4\n",
+                                       "23 AIRFOIL\n1 2\n3 4",
+                                       "2\n1 2\n3 4\n",
+                                       "# one\n\n# 5 6\n1 2\n3 4",
+                                       "prose\nb1 = 1 2\nb2 = 3 4\nthen\n\n1 2\n3 4",
+                                       "1,2 # a\n#b\n3,4#c\n#d",
+                                       "\"x, m\",\"y\"\n\"1\",\"2\"\n\"3\", \"4\"\n",
+                                       "x;y\r\n1;2\r\n3;4",
+                                       "t,1\n1,2\n3,4\n"};
     for (size_t i = 0; i < sizeof text / sizeof *text; i++) assert_reads(*state, text[i], 2, 2, expected);
 }
 
@@ -133,7 +140,9 @@ static void bad_rows_are_refused_with_their_line(void **state)
         {"1,2\n3,1e999\n", "bad.csv:2: field 2 is '1e999', not a finite number"},
         {"0,5\t1,5\n2,5\t3,5\n", "bad.csv:1: field 2 holds several numbers, '5?1'; use one delimiter"},
         {"0,5;1,5\n2,5;3,5\n", "bad.csv:1: field 1 holds several numbers, '0,5'; use one delimiter in all rows, and '.'"},
-        {"\377\3761\0,\0", "UTF-16"},
+        {"\xff\xfe"
+         "1\0,\0",
+         "UTF-16"},
         {"1,2,3,4,5,6,7,8,9,10,11,12,13,14,15,16,17\n", "bad.csv:1: row has 17 numbers, a point has at most 16"},
     };
     for (size_t i = 0; i < sizeof bad / sizeof *bad; i++) {

@@ -282,8 +282,7 @@ static void writes_short_numbers_shortly(void **state)
 static void no_locale_changes_reading_or_writing(void **state)
 {
     (void)state;
-    static const char infinity[] = "INFINITY", *const locale[] = {"de_DE.UTF-8", "de_DE.utf8",  "fr_FR.UTF-8",
-                                                                  "ps_AF",       "tr_TR.UTF-8", "C.UTF-8"};
+    static const char *const locale[] = {"de_DE.UTF-8", "de_DE.utf8", "fr_FR.UTF-8", "ps_AF", "tr_TR.UTF-8", "C.UTF-8"};
     for (size_t i = 0; i < sizeof locale / sizeof *locale; i++) {
         if (setlocale(LC_ALL, locale[i]) == NULL) continue;
         char text[PIA_NUMBER_SIZE];
@@ -292,7 +291,7 @@ static void no_locale_changes_reading_or_writing(void **state)
         assert_string_equal(text, "-1234.5678");
         assert_ptr_equal(pia_number_parse(text, text + strlen(text), &value), text + strlen(text));
         assert_true(value == -1234.5678);
-        assert_non_null(pia_number_parse(infinity, infinity + strlen(infinity), &value));
+        assert_non_null(pia_number_parse("INFINITY", "INFINITY" + 8, &value));
     }
     setlocale(LC_ALL, "C");
 }

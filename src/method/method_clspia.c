@@ -1,0 +1,142 @@
+/* [2023] CLSPIA: LSPIA steps on the Lagrangian, with the multipliers of the constraints following by Uzawa's rule. One loop: the
+ * multipliers move after every step, with the new P. Nested loops: they wait until P has settled (Algorithm 2). */
+#include "constraint.h"
+#include "method.h"
+#include "normalise.h"
+#include "spectrum.h"
+
+#include <math.h>
+
+enum { MU, MU1, LAMBDA0, LOOPS, INNER_TOLERANCE, RECIPE };
+
+typedef struct clspia {
+    double mu, mu1;
+    double inner_tolerance;  /* units of the points; INFINITY: one loop */
+    double *lambda, *excess; /* multipliers and R - B P, [constraints x dim] */
+} clspia;
+
+/* The step of P: at least the largest eigenvalue of H. The paper takes the eigenvalue itself, we the column sum that bounds it. */
+static pia_status choose_mu1(const pia_iterate *iterate, const pia_values *values, clspia *c)
+{
+    c->mu1 = values->number[MU1];
+    if (!values->is_word[MU1]) return PIA_OK;
+    if (values->number[RECIPE] > 0) {
+        pia_spectrum spectrum;
+        pia_status status = pia_spectrum_of_gradient(iterate, &spectrum);
+        if (status == PIA_OK) c->mu1 = spectrum.largest;
+        return status;
+    }
+    pia_index cols = iterate->op->cols;
+    double *sums = pia_take(iterate->context, cols, sizeof *sums);
+    if (sums == NULL) return pia_take_status(iterate->context, cols, sizeof *sums);
+    pia_status status = pia_column_sums(iterate, sums);
+    c->mu1 = pia_largest(cols, sums);
+    pia_give(iterate->context, sums);
+    return status;
+}
+
+/* The step of the multipliers: in one loop below 2 mu1 / |B B'|, in nested loops 1 / lambda_max(B H^-1 B'). */
+static pia_status choose_mu(const pia_iterate *iterate, const pia_values *values, clspia *c)
+{
+    c->mu = values->number[MU];
+    if (!values->is_word[MU]) return PIA_OK;
+    if (isinf(c->inner_tolerance)) {
+        c->mu = c->mu1 / pia_constraints_column_bound(iterate->constraints);
+        return PIA_OK;
+    }
+    double bound;
+    pia_normal *normal = iterate->normal;
+    if (normal == NULL)
+        return pia_fail(iterate->context, PIA_E_ARGUMENT, "clspia: nested loops need normal equations to find mu; give mu=NUMBER");
+    pia_status status = normal->class->factor(normal);
+    if (status == PIA_OK) status = pia_constraints_schur_bound(iterate->constraints, normal, &bound);
+    if (status == PIA_OK) c->mu = bound > 0 ? 1 / bound : 0;
+    return status;
+}
+
+static pia_status begin(pia_iterate *iterate, const pia_values *values, void *state)
+{
+    clspia *c = state;
+    int recipe = values->number[RECIPE] > 0;
+    c->inner_tolerance = INFINITY;
+    if (values->number[LOOPS] > 0 || recipe) c->inner_tolerance = values->number[INNER_TOLERANCE] * (recipe ? 1 : iterate->extent);
+    pia_status status = choose_mu1(iterate, values, c);
+    if (status != PIA_OK || iterate->constraints == NULL) return status;
+    pia_index count = pia_constraints_count(iterate->constraints);
+    size_t vector = (size_t)iterate->dim * sizeof(double);
+    c->lambda = pia_take(iterate->context, count, vector);
+    c->excess = pia_take(iterate->context, count, vector);
+    if (c->lambda == NULL || c->excess == NULL) return pia_take_status(iterate->context, count, vector);
+    pia_constraints_multipliers(iterate->constraints, values->number[LAMBDA0], c->lambda);
+    return choose_mu(iterate, values, c);
+}
+
+/* D = (A'W(Q - AP) - B' lambda) / mu1. Small only when P is optimal for its multipliers, so the violation counts as gradient too. */
+static pia_status adjust(pia_iterate *iterate, void *state)
+{
+    const clspia *c = state;
+    const pia_constraints *constraints = iterate->constraints;
+    double *step = iterate->adjust, violation = 0;
+    pia_iterate_gradient(iterate, step);
+    if (constraints != NULL) {
+        pia_constraints_add(constraints, c->lambda, -1, step);
+        violation = pia_constraints_violation(constraints, iterate->points, NULL) / iterate->extent;
+    }
+    double norm = sqrt(pia_iterate_dot(iterate, step, step));
+    iterate->relative_gradient = fmax(iterate->right_norm > 0 ? norm / iterate->right_norm : norm, violation);
+    double length = c->mu1 > 0 ? 1 / c->mu1 : 0;
+    for (pia_index i = 0; i < iterate->op->cols * iterate->dim; i++) step[i] *= length;
+    return PIA_OK;
+}
+
+static pia_status update(pia_iterate *iterate, void *state)
+{
+    const clspia *c = state;
+    for (pia_index i = 0; i < iterate->op->cols * iterate->dim; i++) iterate->points[i] += iterate->adjust[i];
+    if (iterate->constraints == NULL || !(iterate->adjust_max < c->inner_tolerance)) return PIA_OK;
+    pia_constraints_residual(iterate->constraints, iterate->points, c->excess);
+    pia_index numbers = pia_constraints_count(iterate->constraints) * iterate->dim;
+    for (pia_index i = 0; i < numbers; i++) c->lambda[i] -= c->mu * c->excess[i];
+    return PIA_OK;
+}
+
+static void end(pia_iterate *iterate, void *state)
+{
+    clspia *c = state;
+    pia_give(iterate->context, c->lambda);
+    pia_give(iterate->context, c->excess);
+}
+
+static void history(pia_iterate *iterate, void *state, void (*visit)(void *, const char *, double *, pia_index), void *user)
+{
+    clspia *c = state;
+    visit(user, "mu", &c->mu, 1);
+    visit(user, "mu1", &c->mu1, 1);
+    if (c->lambda != NULL) visit(user, "lambda", c->lambda, pia_constraints_count(iterate->constraints) * iterate->dim);
+}
+
+static const pia_parameter parameters[] = {
+    {"mu", "auto|number", "auto", 0, 1e300,
+     "step of the multipliers; auto is mu1 / largest column sum of |B|, nested: 1 / lambda_max(B H^-1 B')"},
+    {"mu1", "auto|number", "auto", 1e-300, 1e300, "divisor of the steps of control points; auto is the largest column sum of WA"},
+    {"lambda0", NULL, "0", -1e300, 1e300, "multipliers at the start"},
+    {"loops", "single|nested", "single", 0, 0, "multipliers follow every step, or wait until control points settle (Algorithm 2)"},
+    {"inner-tolerance", NULL, "1e-3", 0, 1e300, "nested: settled means that no control point moves more, relative to the extent"},
+    {"recipe", "none|paper", "none", 0, 0, "paper: nested, mu1 = lambda_max(H), inner-tolerance in the units of the points"},
+    {0}};
+
+const pia_method pia_method_clspia = {
+    .name = "clspia",
+    .title = "constrained LSPIA: some points met exactly, the rest in the least-squares sense",
+    .reference = "chang2023",
+    .detail = "least squares with constraints, met in the limit; shape limiters act on its steps",
+    .needs = PIA_LEAST_SQUARES | PIA_NEEDS_NORMAL | PIA_KNOWS_CONSTRAINTS | PIA_IS_LIMITABLE,
+    .iterations = 100000,
+    .parameters = parameters,
+    .state_size = sizeof(clspia),
+    .begin = begin,
+    .adjust = adjust,
+    .update = update,
+    .end = end,
+    .history = history,
+};
