@@ -329,7 +329,8 @@ const double *pia_model_parameters(const pia_model *model, pia_index *count);
  * Suu, Suv, Svv, ... Cost O(degree^2 + dim degree) a curve point. context may be NULL (serial, no message). */
 pia_status pia_model_eval(pia_context *context, const pia_model *model, const double *parameters, pia_index count, int derivatives,
                           double *out);
-/* Curve: out [count] curvature >= 0 (signed for dim 2: left turns positive). Surface of dim 3: out [count x 2] mean and Gaussian. */
+/* Curve: out [count] curvature >= 0 (signed for dim 2: left turns positive). Surface of dim 3: out [count x 2] mean and Gaussian.
+ * NAN where the first derivatives vanish (surface: are parallel). */
 pia_status pia_model_curvature(pia_context *context, const pia_model *model, const double *parameters, pia_index count, double *out);
 /* Closest points, globally: parameters [count x directions], distances [count]; either may be NULL. */
 pia_status pia_model_closest(pia_context *context, const pia_model *model, const double *points, pia_index count, double *parameters,

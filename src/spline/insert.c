@@ -29,9 +29,7 @@ pia_status pia_model_insert_knots(pia_context *context, const pia_model *model, 
     if (status == PIA_OK && out == NULL) status = pia_fail(context, PIA_E_ARGUMENT, "pia_model_insert_knots needs out");
     if (status == PIA_OK) status = check_values(context, values, count);
     if (status != PIA_OK) return status;
-    pia_index old = model->control[direction] + model->degree[direction] + 1, total;
-    if (__builtin_add_overflow(old, count, &total))
-        return pia_fail(context, PIA_E_SIZE, "%lld more knots do not fit in 64 bits", (long long)count);
+    pia_index old = model->control[direction] + model->degree[direction] + 1, total = old + count; /* both arrays are in memory */
     double *target = pia_take(context, total, sizeof *target);
     if (target == NULL) return pia_take_status(context, total, sizeof *target);
     merge(model->knots[direction], old, values, count, target);
@@ -56,10 +54,6 @@ static pia_index saturate(const double *knots, int degree, pia_index control, do
 pia_status pia_model_saturate(pia_context *context, const pia_model *model, int direction, pia_model **out)
 {
     int degree = model->degree[direction];
-    pia_index limit;
-    if (!pia_multiply(model->control[direction], degree, &limit))
-        return pia_fail(context, PIA_E_SIZE, "%lld knots of degree %d do not fit in 64 bits", (long long)model->control[direction],
-                        degree);
     pia_index control = saturate(model->knots[direction], degree, model->control[direction], NULL);
     double *target = pia_take(context, control + degree + 1, sizeof *target);
     if (target == NULL) return pia_take_status(context, control + degree + 1, sizeof *target);

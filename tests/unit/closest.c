@@ -234,6 +234,7 @@ static void bad_points_are_refused(void **state)
     assert_status(context, pia_model_closest(context, model, points, 2, at, NULL), PIA_E_DATA);
     assert_non_null(strstr(pia_message(context), "point 1"));
     assert_status(context, pia_model_closest(context, model, NULL, 1, at, NULL), PIA_E_ARGUMENT);
+    assert_status(context, pia_model_closest(context, model, points, INT64_MAX / 2, at, NULL), PIA_E_SIZE);
     assert_status(context, pia_model_closest(context, model, points, -1, at, NULL), PIA_E_ARGUMENT);
     assert_status(context, pia_model_closest(context, NULL, points, 1, at, NULL), PIA_E_ARGUMENT);
     assert_ok(context, pia_model_closest(context, model, points, 0, at, NULL));

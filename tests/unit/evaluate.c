@@ -108,18 +108,36 @@ static void parameters_outside_are_taken_at_the_nearest_end(void **state)
     pia_model_destroy(model);
 }
 
-static void t_peer_05_06_16_every_degree_and_place_stays_inside_its_arrays(void **state)
+/* All derivatives at `count` places of a curve of every degree; each array ends where the address sanitizer watches. */
+static void check_places(const double *at, pia_index count, int beyond_degree)
 {
-    (void)state;
     for (int degree = 1; degree <= PIA_MAX_DEGREE; degree++) {
         pia_model *model = shape_curve(NULL, degree, degree + 1 + degree % 3, 2, degree % 2, (uint64_t)degree);
-        const double at[] = {-1e308, -1, -1e-320, 0, 0.5, 1, nextafter(1, 2), 1e308};
-        double *out = malloc((size_t)(8 * (degree + 3) * 2) * sizeof *out);
-        assert_ok(NULL, pia_model_eval(NULL, model, at, 8, degree + 2, out));
-        for (int i = 0; i < 8 * (degree + 3) * 2; i++) assert_true(isfinite(out[i]));
+        int order = degree + beyond_degree;
+        double *out = malloc((size_t)(count * (order + 1) * 2) * sizeof *out);
+        assert_ok(NULL, pia_model_eval(NULL, model, at, count, order, out));
+        for (pia_index i = 0; i < count * (order + 1) * 2; i++) assert_true(isfinite(out[i]));
         free(out);
         pia_model_destroy(model);
     }
+}
+
+static void t_peer_05_degrees_above_19_are_evaluated(void **state)
+{
+    (void)state;
+    check_places((double[]){0, 0.25, 0.5, 1}, 4, 0);
+}
+
+static void t_peer_06_derivatives_left_of_the_domain_stay_inside_their_arrays(void **state)
+{
+    (void)state;
+    check_places((double[]){-1e308, -1, -1e-320}, 3, 1);
+}
+
+static void t_peer_16_no_parameter_reads_past_the_knots(void **state)
+{
+    (void)state;
+    check_places((double[]){nextafter(1, 0), 1, nextafter(1, 2), 2, 1e308}, 5, 2);
 }
 
 static void bad_requests_are_refused_and_write_nothing(void **state)
@@ -209,7 +227,9 @@ int main(void)
         cmocka_unit_test(clamped_ends_are_the_end_control_points_to_the_last_bit),
         cmocka_unit_test(a_rational_arc_is_round),
         cmocka_unit_test(parameters_outside_are_taken_at_the_nearest_end),
-        cmocka_unit_test(t_peer_05_06_16_every_degree_and_place_stays_inside_its_arrays),
+        cmocka_unit_test(t_peer_05_degrees_above_19_are_evaluated),
+        cmocka_unit_test(t_peer_06_derivatives_left_of_the_domain_stay_inside_their_arrays),
+        cmocka_unit_test(t_peer_16_no_parameter_reads_past_the_knots),
         cmocka_unit_test(bad_requests_are_refused_and_write_nothing),
         cmocka_unit_test(thread_counts_change_no_bit),
         cmocka_unit_test(t_peer_48_one_model_is_read_by_many_threads_at_once),

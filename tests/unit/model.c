@@ -2,7 +2,7 @@
 
 #include <math.h>
 
-#include "check.h"
+#include "../memory/failing.h"
 #include "shapes.h"
 
 static const int degree[2] = {2, 1};
@@ -140,10 +140,25 @@ static void impossible_models_are_refused_with_the_reason(void **state)
     refused(PIA_E_SIZE, "64 bits", 1, degree, endless, 3, 0, 1);
     refused(PIA_E_DATA, "occurs too often", 1, other, control, 3, 0, 1);
     refused(PIA_E_DATA, "component 1 of control point 2", 1, degree, control, 3, NAN, 1);
+    refused(PIA_E_DATA, "overflows", 1, degree, control, 2, 1e300, 1e300);
     refused(PIA_E_DATA, "weight 3 is 0", 1, degree, control, 3, 0, 0);
     refused(PIA_E_DATA, "weight 3 is -1", 1, degree, control, 3, 0, -1);
     refused(PIA_E_DATA, "weight 3 is inf", 1, degree, control, 3, 0, INFINITY);
     refused(PIA_E_DATA, "weight 3 is ", 1, degree, control, 3, 0, NAN);
+}
+
+static pia_status create_surface(pia_context *context, void *user)
+{
+    pia_model *model = NULL;
+    pia_status status = create(context, 2, 3, user, &model);
+    pia_model_destroy(model);
+    return status;
+}
+
+static void creation_survives_every_failed_allocation(void **state)
+{
+    (void)state;
+    assert_survives_failures(create_surface, NULL);
 }
 
 static void missing_arrays_are_refused(void **state)
@@ -182,6 +197,7 @@ int main(void)
         cmocka_unit_test(a_model_without_a_fit_has_no_report_notes_or_parameters),
         cmocka_unit_test(a_model_tells_the_fit_that_made_it),
         cmocka_unit_test(impossible_models_are_refused_with_the_reason),
+        cmocka_unit_test(creation_survives_every_failed_allocation),
         cmocka_unit_test(missing_arrays_are_refused),
         cmocka_unit_test(t_peer_13_unclamped_knots_are_refused_by_name),
     };

@@ -19,7 +19,8 @@ static inline double *shape_knots(int degree, pia_index control, uint64_t *state
     double *knots = malloc((size_t)(control + degree + 1) * sizeof *knots);
     double total = 0;
     for (pia_index i = 0; i < control + degree + 1; i++) {
-        if (i > degree && i <= control && (degree < 2 || i % 5 != 0 || i == degree + 1 || i == control)) total += 0.05 + shape_random(state);
+        if (i > degree && i <= control && (degree < 2 || i % 5 != 0 || i == degree + 1 || i == control))
+            total += 0.05 + shape_random(state);
         knots[i] = total;
     }
     for (pia_index i = 0; i < control + degree + 1; i++) knots[i] = i >= control ? 1 : knots[i] / total;
