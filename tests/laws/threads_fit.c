@@ -4,7 +4,7 @@
 
 #include "check.h"
 
-enum { COUNT = 140000, ROWS = 220, COLUMNS = 210, STEPS = 4 };
+enum { COUNT = 140000, ROWS = 220, COLUMNS = 210, STEPS = 2 };
 
 typedef struct problem {
     pia_data data;
