@@ -11,8 +11,9 @@
 enum { SMALLEST, PASSES = 100 };
 
 typedef struct semi {
-    double centre, ratio, weight, steps;
-    double *last; /* D of the step before [cols x dim] */
+    double smallest, weight, steps;
+    double damping; /* the loop's, as last seen */
+    double *last;   /* D of the step before [cols x dim] */
 } semi;
 
 static pia_status begin(pia_iterate *iterate, const pia_values *values, void *state)
@@ -27,19 +28,28 @@ static pia_status begin(pia_iterate *iterate, const pia_values *values, void *st
     if (status != PIA_OK) return status;
     s->last = pia_take_zero(iterate->context, iterate->op->cols * iterate->dim, sizeof *s->last);
     if (s->last == NULL) return PIA_E_MEMORY;
-    s->centre = (1 + smallest) / 2;
-    s->ratio = (1 - smallest) / (1 + smallest);
+    s->smallest = smallest;
+    s->damping = iterate->damping;
     return PIA_OK;
+}
+
+/* Steps grew and were taken back: shorter ones, and no memory of those. */
+static void start_over(pia_iterate *iterate, semi *s)
+{
+    s->damping = iterate->damping;
+    s->steps = 0;
+    memset(s->last, 0, (size_t)(iterate->op->cols * iterate->dim) * sizeof *s->last);
 }
 
 static pia_status adjust(pia_iterate *iterate, void *state)
 {
     semi *s = state;
     pia_index count = iterate->op->cols * iterate->dim;
-    double square = s->ratio * s->ratio;
+    if (iterate->damping < s->damping) start_over(iterate, s);
+    double ratio = (1 - s->smallest) / (1 + s->smallest), square = ratio * ratio;
     s->weight = s->steps == 0 ? 1 : s->steps == 1 ? 2 / (2 - square) : 1 / (1 - square * s->weight / 4);
     s->steps++;
-    pia_owner_adjust(iterate, iterate->damping / s->centre);
+    pia_owner_adjust(iterate, 2 * iterate->damping / (1 + s->smallest));
     for (pia_index i = 0; i < count; i++) iterate->adjust[i] = s->weight * (iterate->adjust[i] + s->last[i]) - s->last[i];
     memcpy(s->last, iterate->adjust, (size_t)count * sizeof *s->last);
     return PIA_OK;
@@ -53,8 +63,8 @@ static void end(pia_iterate *iterate, void *state)
 static void history(pia_iterate *iterate, void *state, void (*visit)(void *, const char *, double *, pia_index), void *user)
 {
     semi *s = state;
-    visit(user, "centre", &s->centre, 1);
-    visit(user, "ratio", &s->ratio, 1);
+    visit(user, "smallest", &s->smallest, 1);
+    visit(user, "damping", &s->damping, 1);
     visit(user, "weight", &s->weight, 1);
     visit(user, "steps", &s->steps, 1);
     visit(user, "last", s->last, iterate->op->cols * iterate->dim);

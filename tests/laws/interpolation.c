@@ -136,7 +136,7 @@ static void pia_meets_every_point_of_the_airfoils(void **state)
     static const char *const name[] = {"rae2822.dat", "naca2412.dat", "e387.dat", "clarky.dat", "ag35.dat", "sc20714.dat"};
     for (size_t k = 0; k < sizeof name / sizeof *name; k++)
         for (int dim = 2; dim <= 4; dim++)
-            for (int degree = 1; degree <= 4; degree++) {
+            for (int degree = 1; degree <= 7; degree++) {
                 problem p = airfoil(*state, name[k], dim, degree);
                 pia_report report = {.struct_size = sizeof report};
                 pia_model *pia = fit(*state, &p, "pia", "average", TO_THE_LIMIT, &report);
