@@ -14,5 +14,17 @@ double pia_polygon_orientation(const pia_iterate *iterate, const double *scale, 
 int pia_polygon_sign(const pia_iterate *iterate, const double *scale, pia_index i);
 /* Neighbouring vertex numbers, wrapped where the polygon is closed. */
 pia_index pia_polygon_vertex(const pia_iterate *iterate, pia_index i);
+int pia_polygon_closed(const pia_iterate *iterate);
+/* Vertex i of P + scale D. */
+void pia_polygon_point(const pia_iterate *iterate, const double *scale, pia_index i, double xy[2]);
+
+/* The sign that each turn of P + scale D is to keep, [cols], 0 at vertices without a turn: vertices that coincide share a turn,
+ * straight ones take the sign of their neighbours, half of them each between opposite ones; an odd middle one may bend as it likes and
+ * gets 0. Returns 0 when all of them are straight, 1 otherwise. O(cols). */
+int pia_polygon_targets(const pia_iterate *iterate, const double *scale, double *sign);
+
+/* After a limiter has chosen a factor for each step, from `longest` the longest one asked: D *= scale, and the fit is stalled where
+ * steps of delta or more were asked but none is left. */
+void pia_polygon_shorten(pia_iterate *iterate, const double *scale, double longest, double delta);
 
 #endif
