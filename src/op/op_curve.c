@@ -2,6 +2,7 @@
  * registers. Chunks of spans hold about the same number of rows and depend on the problem alone. */
 #include "kernel.h"
 #include "op.h"
+#include "span_sums.h"
 
 #include <math.h>
 #include <string.h>
@@ -19,6 +20,7 @@ typedef struct pass {
     double *out;
     double *tail;       /* gather: [chunks x degree x dim] sums beyond a chunk's own columns */
     pia_errors *errors; /* [chunks] */
+    const pia_chebyshev *chebyshev;
 } pass;
 
 static pia_index chunk_count(pia_index rows)
@@ -59,33 +61,57 @@ static inline __attribute__((always_inline)) void apply_spans(const pass *p, pia
             combine(pia_collocation_row(c, row, degree + s, scratch), p->full + s * dim, degree, dim, p->out + row * dim);
 }
 
+static inline __attribute__((always_inline)) void plain_residual(const pass *p, pia_index s, int degree, int dim, pia_run_errors *e)
+{
+    const pia_collocation *c = p->line;
+    double scratch[PIA_MAX_DEGREE + 1], sum[PIA_MAX_DIM];
+    for (pia_index row = c->begin[s]; row < c->begin[s + 1]; row++) {
+        const double *target = p->targets->points + row * dim;
+        combine(pia_collocation_row(c, row, degree + s, scratch), p->full + s * dim, degree, dim, sum);
+        double square = 0;
+        for (int d = 0; d < dim; d++) {
+            double difference = target[d] - p->targets->origin[d] - sum[d];
+            square += difference * difference;
+            if (p->out != NULL) p->out[row * dim + d] = p->base != NULL ? p->base[row * dim + d] + p->factor * difference : difference;
+        }
+        e->sum_squares += square;
+        e->weighted += p->weights != NULL ? p->weights[row] * square : square;
+        if (square > e->worst) {
+            e->worst = square;
+            e->index = row;
+        }
+    }
+}
+
+/* In a span of many rows the curve is a polynomial of the local parameter, and no basis function is evaluated. */
+static void polynomial_residual(const pass *p, pia_index s, pia_run_errors *e)
+{
+    int width = p->line->degree + 1;
+    double basis[(PIA_MAX_DEGREE + 1) * (PIA_MAX_DEGREE + 1)], curve[(PIA_MAX_DEGREE + 1) * PIA_MAX_DIM] = {0};
+    pia_span_data data = {NULL, p->line, p->weights, p->targets};
+    pia_run run = pia_span_run(&data, p->chebyshev, s, basis);
+    for (int k = 0; k < width; k++)
+        for (int j = 0; j < width; j++)
+            for (int d = 0; d < p->dim; d++) curve[j * p->dim + d] += basis[k * width + j] * p->full[(s + k) * p->dim + d];
+    pia_index first = p->line->begin[s];
+    pia_run_residual(&run, curve, first, p->out != NULL ? p->out + first * p->dim : NULL, e);
+}
+
 static inline __attribute__((always_inline)) void residual_spans(const pass *p, pia_index chunk, int degree, int dim)
 {
     const pia_collocation *c = p->line;
     pia_index from = chunk_span(c, p->chunks, chunk), to = chunk_span(c, p->chunks, chunk + 1);
-    double scratch[PIA_MAX_DEGREE + 1], sum[PIA_MAX_DIM], worst = -1;
-    pia_errors e = {0, -1, 0, 0, 0};
+    pia_run_errors e = {0, 0, -1, -1};
     for (pia_index s = from; s < to; s++)
-        for (pia_index row = c->begin[s]; row < c->begin[s + 1]; row++) {
-            const double *target = p->targets->points + row * dim;
-            combine(pia_collocation_row(c, row, degree + s, scratch), p->full + s * dim, degree, dim, sum);
-            double square = 0;
-            for (int d = 0; d < dim; d++) {
-                double difference = target[d] - p->targets->origin[d] - sum[d];
-                square += difference * difference;
-                if (p->out != NULL)
-                    p->out[row * dim + d] = p->base != NULL ? p->base[row * dim + d] + p->factor * difference : difference;
-            }
-            e.sum_squares += square;
-            e.weighted += p->weights != NULL ? p->weights[row] * square : square;
-            if (square > worst) {
-                worst = square;
-                e.max_row = row;
-            }
-        }
-    e.count = c->begin[to] - c->begin[from];
-    e.max = worst > 0 ? sqrt(worst) : 0;
-    p->errors[chunk] = e;
+        if (p->base == NULL && pia_span_is_full(c, s))
+            polynomial_residual(p, s, &e);
+        else
+            plain_residual(p, s, degree, dim, &e);
+    p->errors[chunk] = (pia_errors){.max = e.worst > 0 ? sqrt(e.worst) : 0,
+                                    .max_row = e.index,
+                                    .sum_squares = e.sum_squares,
+                                    .weighted = e.weighted,
+                                    .count = c->begin[to] - c->begin[from]};
 }
 
 static inline __attribute__((always_inline)) void gather_spans(const pass *p, pia_index chunk, int degree, int dim)
@@ -162,6 +188,9 @@ static pia_errors residual(const pia_op *op, const double *full, const pia_targe
     p.factor = factor;
     p.out = out;
     p.errors = errors;
+    pia_chebyshev chebyshev;
+    pia_chebyshev_fill(p.line->degree, &chebyshev);
+    p.chebyshev = &chebyshev;
     pia_for_each(op->context, p.chunks, residual_chunk, &p);
     for (pia_index c = 1; c < p.chunks; c++) errors[0] = pia_errors_join(errors[0], errors[c]);
     return errors[0];

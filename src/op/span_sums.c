@@ -2,16 +2,13 @@
  * basis functions by one small change of basis a span. */
 #include "span_sums.h"
 
-#include "chebyshev.h"
 #include "kernel.h"
-#include "moments.h"
 
-#include <math.h>
 #include <string.h>
 
-/* FEW: below, evaluating basis functions is cheaper than the change of basis. PIECE: rows of a span that one task sums; longer spans
- * are shared between tasks. GRAIN: rows a task gets when spans are short. */
-enum { FEW = 16, PIECE = 262144, GRAIN = 16384, MAX_CHUNKS = 256 };
+/* Below FEW points a function, evaluating them is cheaper than the change of basis. PIECE: rows of a span that one task sums; longer
+ * spans are shared between tasks. GRAIN: rows a task gets when spans are short. */
+enum { FEW = 2, PIECE = 262144, GRAIN = 16384, MAX_CHUNKS = 256 };
 
 int pia_span_room(int degree, int dim)
 {
@@ -39,6 +36,8 @@ static inline __attribute__((always_inline)) void plain_span(const pia_span_data
     }
 }
 
+static const double lost = 1e-12;
+
 static int components(const pia_span_data *data)
 {
     return data->targets != NULL ? data->targets->dim : 0;
@@ -56,46 +55,55 @@ static void sum_plain(const pia_span_data *data, pia_index s, double *share)
         plain_span(data, s, degree, dim, share);
 }
 
-static pia_moments moments_of(const pia_span_data *data, double middle, double scale)
+int pia_span_is_full(const pia_collocation *line, pia_index s)
 {
-    const double *origin = data->targets != NULL ? data->targets->origin : NULL;
-    return (pia_moments){data->line->degree, components(data), origin, middle, scale};
+    return line->begin[s + 1] - line->begin[s] >= FEW * (line->degree + 1);
 }
 
-static void sum_rows(const pia_span_data *data, const pia_moments *m, pia_index from, pia_index to, double *sums)
+pia_run pia_span_run(const pia_span_data *data, const pia_chebyshev *c, pia_index s, double *coefficient)
 {
-    const double *points = m->dim > 0 ? data->targets->points + from * m->dim : NULL;
-    const double *weights = data->weights != NULL ? data->weights + from : NULL;
-    pia_moments_add(m, data->line->parameters + from, points, weights, to - from, sums);
+    const pia_collocation *line = data->line;
+    int dim = components(data);
+    pia_index from = line->begin[s];
+    pia_run run = {.degree = line->degree, .dim = dim, .t = line->parameters + from, .count = line->begin[s + 1] - from};
+    pia_chebyshev_span(c, line, s, &run.middle, &run.scale, coefficient);
+    if (dim > 0) run.origin = data->targets->origin;
+    if (dim > 0) run.points = data->targets->points + from * dim;
+    if (data->weights != NULL) run.weights = data->weights + from;
+    return run;
 }
 
 typedef struct pieces {
-    const pia_span_data *data;
-    const pia_moments *moments;
-    pia_index from, count, chunks;
-    double (*sums)[PIA_MOMENTS_ROOM];
+    const pia_run *whole;
+    pia_index from, count;
+    double (*sums)[PIA_RUN_SUMS];
 } pieces;
+
+enum { AT_ONCE = 16 }; /* pieces of a long run */
 
 static void sum_piece(void *work, pia_index chunk)
 {
     const pieces *p = work;
+    pia_run run = *p->whole;
+    pia_index from = p->from + pia_chunk_begin(p->count, AT_ONCE, chunk);
+    run.count = p->from + pia_chunk_begin(p->count, AT_ONCE, chunk + 1) - from;
+    run.t += from;
+    if (run.points != NULL) run.points += from * run.dim;
+    if (run.weights != NULL) run.weights += from;
     memset(p->sums[chunk], 0, sizeof *p->sums);
-    sum_rows(p->data, p->moments, p->from + pia_chunk_begin(p->count, p->chunks, chunk),
-             p->from + pia_chunk_begin(p->count, p->chunks, chunk + 1), p->sums[chunk]);
+    pia_run_moments(&run, p->sums[chunk]);
 }
 
 /* A span of very many rows: a few pieces at a time, their sums added in order. */
-static void sum_long(const pia_span_data *data, const pia_moments *m, pia_index from, pia_index to, double *sums)
+static void sum_long(pia_context *context, const pia_run *run, double *sums)
 {
-    enum { AT_ONCE = 16 };
-    double part[AT_ONCE][PIA_MOMENTS_ROOM];
-    while (from < to) {
-        pia_index count = to - from < AT_ONCE * (pia_index)PIECE ? to - from : AT_ONCE * (pia_index)PIECE;
-        pieces p = {data, m, from, count, AT_ONCE, part};
-        pia_for_each(data->context, AT_ONCE, sum_piece, &p);
+    double part[AT_ONCE][PIA_RUN_SUMS];
+    for (pia_index from = 0; from < run->count; from += AT_ONCE * (pia_index)PIECE) {
+        pia_index count = run->count - from < AT_ONCE * (pia_index)PIECE ? run->count - from : AT_ONCE * (pia_index)PIECE;
+        pieces p = {run, from, count, part};
+        pia_for_each(context, AT_ONCE, sum_piece, &p);
         for (int c = 0; c < AT_ONCE; c++)
-            for (int k = 0; k < (m->dim + 2) * (m->degree + 1); k++) sums[k] += part[c][k];
-        from += count;
+            for (int k = 0; k < (run->dim + 2) * (run->degree + 1); k++) sums[k] += part[c][k];
     }
 }
 
@@ -134,29 +142,35 @@ static void change_basis(int degree, int dim, const double *coefficient, const d
         }
 }
 
+/* Moments know sums to a fixed part of the largest; where a function is smaller than that at all points, they know nothing of it. */
+static int is_known(int degree, const double *share)
+{
+    double smallest = share[0], largest = share[0];
+    for (int k = 0; k <= degree; share += degree + 1 - k, k++) {
+        if (share[0] < smallest) smallest = share[0];
+        if (share[0] > largest) largest = share[0];
+    }
+    return smallest > lost * largest;
+}
+
 static void sum_moments(const pia_span_data *data, const pia_chebyshev *c, pia_index s, double *share)
 {
-    double middle, scale, coefficient[(PIA_MAX_DEGREE + 1) * (PIA_MAX_DEGREE + 1)], sums[PIA_MOMENTS_ROOM];
-    pia_chebyshev_span(c, data->line, s, &middle, &scale, coefficient);
-    if (!isfinite(scale)) {
-        sum_plain(data, s, share);
-        return;
-    }
-    pia_moments m = moments_of(data, middle, scale);
-    pia_index from = data->line->begin[s], to = data->line->begin[s + 1];
-    memset(sums, 0, (size_t)((m.dim + 2) * (m.degree + 1)) * sizeof *sums);
-    if (to - from > PIECE)
-        sum_long(data, &m, from, to, sums);
+    double coefficient[(PIA_MAX_DEGREE + 1) * (PIA_MAX_DEGREE + 1)], sums[PIA_RUN_SUMS];
+    pia_run run = pia_span_run(data, c, s, coefficient);
+    memset(sums, 0, (size_t)((run.dim + 2) * (run.degree + 1)) * sizeof *sums);
+    if (run.count > PIECE)
+        sum_long(data->context, &run, sums);
     else
-        sum_rows(data, &m, from, to, sums);
-    change_basis(m.degree, m.dim, coefficient, sums, share);
+        pia_run_moments(&run, sums);
+    change_basis(run.degree, run.dim, coefficient, sums, share);
+    if (!is_known(run.degree, share)) sum_plain(data, s, share);
 }
 
 typedef struct sweep {
     const pia_span_data *data;
     pia_index first, last, chunks;
     double *share;
-    const pia_chebyshev *chebyshev; /* NULL: plain sums */
+    const pia_chebyshev *chebyshev;
 } sweep;
 
 /* First span of a chunk: chunks hold about the same number of rows. */
@@ -184,11 +198,10 @@ static int is_long(const pia_span_data *data, pia_index s)
 static void sum_chunk(void *work, pia_index chunk)
 {
     const sweep *w = work;
-    const pia_index *begin = w->data->line->begin;
     int room = pia_span_room(w->data->line->degree, components(w->data));
     for (pia_index s = chunk_span(w, chunk); s < chunk_span(w, chunk + 1); s++) {
         double *share = w->share + (s - w->first) * room;
-        if (w->chebyshev == NULL || begin[s + 1] - begin[s] < FEW)
+        if (!pia_span_is_full(w->data->line, s))
             sum_plain(w->data, s, share);
         else if (!is_long(w->data, s))
             sum_moments(w->data, w->chebyshev, s, share);
@@ -210,10 +223,4 @@ void pia_span_sums(const pia_span_data *data, pia_index first, pia_index last, d
     for (pia_index s = first; s <= last; s++) /* their rows are shared between the threads, one such span after the other */
         if (is_long(data, s))
             sum_moments(data, &chebyshev, s, share + (s - first) * pia_span_room(data->line->degree, components(data)));
-}
-
-void pia_span_sums_plain(const pia_span_data *data, pia_index first, pia_index last, double *share)
-{
-    sweep w = sweep_over(data, first, last, share, NULL);
-    pia_for_each(data->context, w.chunks, sum_chunk, &w);
 }

@@ -2,7 +2,9 @@
 #ifndef PIA_OP_SPAN_SUMS_H
 #define PIA_OP_SPAN_SUMS_H
 
+#include "chebyshev.h"
 #include "op.h"
+#include "run.h"
 
 /* Doubles of a share: the upper triangle by rows, sum w N_k N_l for k <= l, then sum w N_k (q - origin) [(degree + 1) x dim]. */
 int pia_span_room(int degree, int dim);
@@ -18,7 +20,10 @@ typedef struct pia_span_data {
 /* Shares of spans first .. last (span s begins at knot degree + s) into share[(s - first) * room]. Spans of many points go by moments.
  * The same bits whatever the threads and whatever the range. */
 void pia_span_sums(const pia_span_data *data, pia_index first, pia_index last, double *share);
-/* The same from basis values alone, point by point: digits that moments lose where a basis function is almost zero at all points. */
-void pia_span_sums_plain(const pia_span_data *data, pia_index first, pia_index last, double *share);
+
+/* The rows of span s as a run, and the Chebyshev coefficients of its basis functions [(degree + 1) x (degree + 1)]. */
+pia_run pia_span_run(const pia_span_data *data, const pia_chebyshev *c, pia_index s, double *coefficient);
+/* Whether span s has so many rows that this pays. */
+int pia_span_is_full(const pia_collocation *line, pia_index s);
 
 #endif

@@ -1,0 +1,18 @@
+/* PIA_CLONES before a function: the compiler makes a version for processors with AVX2 beside the portable one, and the loader picks.
+ * The bits are the same: sums keep their lanes, and multiplications and additions are never contracted. PIA_INLINE: functions that must
+ * become part of every version. Sanitizers instrument the choice itself before they are
+ * ready for it, and clang 14 cannot link it: they get one version. */
+#ifndef PIA_KERNEL_CLONES_H
+#define PIA_KERNEL_CLONES_H
+
+#include <stddef.h>
+
+#define PIA_INLINE static inline __attribute__((always_inline))
+
+#if defined(__x86_64__) && defined(__GLIBC__) && !defined(__clang__) && !defined(__SANITIZE_THREAD__) && !defined(__SANITIZE_ADDRESS__)
+#define PIA_CLONES __attribute__((target_clones("avx2", "default")))
+#else
+#define PIA_CLONES
+#endif
+
+#endif

@@ -1,0 +1,45 @@
+/* Runs are taken in blocks that stay in the first-level cache, a component after the other, in lanes: two are what every 64-bit
+ * processor has. */
+#ifndef PIA_KERNEL_RUN_BLOCK_H
+#define PIA_KERNEL_RUN_BLOCK_H
+
+#include <string.h>
+
+#include "clones.h"
+#include "run.h"
+
+enum { PIA_LANES = 4, PIA_BLOCK = 64 };
+
+typedef double pia_lanes __attribute__((vector_size(PIA_LANES * sizeof(double))));
+
+PIA_INLINE int pia_block_count(const pia_run *run, pia_index done)
+{
+    return run->count - done < PIA_BLOCK ? (int)(run->count - done) : PIA_BLOCK;
+}
+
+PIA_INLINE void pia_block_split(const double *q, const double *origin, int count, int dim, double (*component)[PIA_BLOCK])
+{
+    for (int d = 0; d < dim; d++)
+        for (int k = 0; k < count; k++) component[d][k] = q[k * dim + d] - origin[d];
+}
+
+/* `count` points from `done` on: x and the components less the origin, with zeros up to whole lanes. Returns the whole count. */
+PIA_INLINE int pia_block_fill(const pia_run *run, pia_index done, int count, double *x, double (*component)[PIA_BLOCK])
+{
+    int whole = (count + PIA_LANES - 1) / PIA_LANES * PIA_LANES, dim = run->dim;
+    const double *t = run->t + done, *q = dim > 0 ? run->points + done * dim : NULL;
+    for (int k = 0; k < count; k++) x[k] = (t[k] - run->middle) * run->scale;
+    if (dim == 3)
+        pia_block_split(q, run->origin, count, 3, component);
+    else if (dim == 2)
+        pia_block_split(q, run->origin, count, 2, component);
+    else
+        pia_block_split(q, run->origin, count, dim, component);
+    for (int k = count; k < whole; k++) {
+        x[k] = 0;
+        for (int d = 0; d < dim; d++) component[d][k] = 0;
+    }
+    return whole;
+}
+
+#endif

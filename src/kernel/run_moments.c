@@ -1,0 +1,66 @@
+/* A table of polynomials, one of components, then products of the rows of the one with the rows of the other, four sums at a time in
+ * registers. */
+#include "run_block.h"
+
+enum { ROWS = PIA_MAX_DEGREE + 1, COLUMNS = PIA_MAX_DIM + 2 };
+
+typedef struct block {
+    double polynomial[ROWS][PIA_BLOCK], column[COLUMNS][PIA_BLOCK];
+} block;
+
+/* sums[j] += polynomial[j] * column for `rows` consecutive j. */
+PIA_INLINE void add_products(const double (*polynomial)[PIA_BLOCK], int rows, const double *column, int count, pia_lanes *sums)
+{
+    pia_lanes sum[4];
+    for (int j = 0; j < rows; j++) sum[j] = sums[j];
+    for (int k = 0; k < count; k += PIA_LANES) {
+        pia_lanes factor, value;
+        memcpy(&factor, column + k, sizeof factor);
+        for (int j = 0; j < rows; j++) {
+            memcpy(&value, polynomial[j] + k, sizeof value);
+            sum[j] += value * factor;
+        }
+    }
+    for (int j = 0; j < rows; j++) sums[j] = sum[j];
+}
+
+PIA_INLINE void add_column(const block *b, int degree, const double *column, int count, pia_lanes *sums)
+{
+    int j = 0;
+    for (; j + 4 <= degree + 1; j += 4) add_products(b->polynomial + j, 4, column, count, sums + j);
+    if (j + 2 <= degree + 1) {
+        add_products(b->polynomial + j, 2, column, count, sums + j);
+        j += 2;
+    }
+    if (j <= degree) add_products(b->polynomial + j, 1, column, count, sums + j);
+}
+
+/* Columns: 1, T_degree, the components; polynomials with the weights in them. Points that only fill the lanes count as 0. */
+PIA_INLINE int fill(const pia_run *run, pia_index done, int count, block *b)
+{
+    double(*p)[PIA_BLOCK] = b->polynomial;
+    int whole = pia_block_fill(run, done, count, p[1], b->column + 2);
+    const double *weights = run->weights != NULL ? run->weights + done : NULL;
+    for (int k = 0; k < whole; k++) p[0][k] = b->column[0][k] = k < count;
+    for (int j = 2; j <= run->degree; j++)
+        for (int k = 0; k < whole; k++) p[j][k] = 2 * p[1][k] * p[j - 1][k] - p[j - 2][k];
+    memcpy(b->column[1], p[run->degree], (size_t)whole * sizeof(double));
+    for (int k = count; k < whole; k++) b->column[1][k] = 0;
+    for (int j = 0; weights != NULL && j <= run->degree; j++)
+        for (int k = 0; k < count; k++) p[j][k] *= weights[k];
+    return whole;
+}
+
+PIA_CLONES void pia_run_moments(const pia_run *run, double *sums)
+{
+    block b;
+    pia_lanes sum[COLUMNS][ROWS];
+    int width = run->degree + 1, columns = run->dim + 2;
+    for (int c = 0; c < columns; c++) memset(sum[c], 0, (size_t)width * sizeof(pia_lanes));
+    for (pia_index done = 0; done < run->count; done += PIA_BLOCK) {
+        int whole = fill(run, done, pia_block_count(run, done), &b);
+        for (int c = 0; c < columns; c++) add_column(&b, run->degree, b.column[c], whole, sum[c]);
+    }
+    for (int c = 0; c < columns; c++)
+        for (int j = 0; j < width; j++) sums[c * width + j] += (sum[c][j][0] + sum[c][j][1]) + (sum[c][j][2] + sum[c][j][3]);
+}

@@ -1,0 +1,79 @@
+#include "run_block.h"
+
+/* value -= the polynomial of one component at x, by Clenshaw's recurrence; its squares are added up. */
+PIA_INLINE void subtract(const double *x, int count, const double *coefficient, int stride, int degree, double *value, double *square)
+{
+    for (int k = 0; k < count; k++) {
+        double twice = 2 * x[k], above = 0, two_above = 0;
+        for (int j = degree; j >= 1; j--) {
+            double next = coefficient[j * stride] + twice * above - two_above;
+            two_above = above;
+            above = next;
+        }
+        value[k] -= coefficient[0] + x[k] * above - two_above;
+        square[k] += value[k] * value[k];
+    }
+}
+
+/* The degrees that people use get their own loops, which the compiler turns into vectors. */
+PIA_INLINE void subtract_polynomial(const double *x, int count, const double *coefficient, int stride, int degree,
+                                    double *restrict value, double *restrict square)
+{
+    switch (degree) {
+    case 1: subtract(x, count, coefficient, stride, 1, value, square); break;
+    case 2: subtract(x, count, coefficient, stride, 2, value, square); break;
+    case 3: subtract(x, count, coefficient, stride, 3, value, square); break;
+    case 4: subtract(x, count, coefficient, stride, 4, value, square); break;
+    case 5: subtract(x, count, coefficient, stride, 5, value, square); break;
+    default: subtract(x, count, coefficient, stride, degree, value, square); break;
+    }
+}
+
+PIA_INLINE double sum_lanes(const double *value, int count)
+{
+    pia_lanes sum = {0}, next;
+    for (int k = 0; k < count; k += PIA_LANES) {
+        memcpy(&next, value + k, sizeof next);
+        sum += next;
+    }
+    return (sum[0] + sum[1]) + (sum[2] + sum[3]);
+}
+
+PIA_INLINE double largest(const double *value, int count)
+{
+    double most[PIA_LANES] = {0};
+    for (int k = 0; k < count; k += PIA_LANES)
+        for (int l = 0; l < PIA_LANES; l++) most[l] = value[k + l] > most[l] ? value[k + l] : most[l];
+    double low = most[0] > most[1] ? most[0] : most[1], high = most[2] > most[3] ? most[2] : most[3];
+    return low > high ? low : high;
+}
+
+/* square [whole], zero beyond count. */
+PIA_INLINE void note_errors(double *square, const double *weight, int count, int whole, pia_index first, pia_run_errors *errors)
+{
+    double worst = largest(square, whole), sum = sum_lanes(square, whole);
+    errors->sum_squares += sum;
+    if (worst > errors->worst) {
+        errors->worst = worst;
+        for (int k = count - 1; k >= 0; k--)
+            if (square[k] == worst) errors->index = first + k;
+    }
+    for (int k = 0; weight != NULL && k < count; k++) square[k] *= weight[k];
+    errors->weighted += weight != NULL ? sum_lanes(square, whole) : sum;
+}
+
+PIA_CLONES void pia_run_residual(const pia_run *run, const double *coefficient, pia_index first, double *out, pia_run_errors *errors)
+{
+    double x[PIA_BLOCK], component[PIA_MAX_DIM][PIA_BLOCK], square[PIA_BLOCK];
+    int dim = run->dim;
+    for (pia_index done = 0; done < run->count; done += PIA_BLOCK) {
+        int count = pia_block_count(run, done), whole = pia_block_fill(run, done, count, x, component);
+        for (int k = 0; k < whole; k++) square[k] = 0;
+        for (int d = 0; d < dim; d++) {
+            subtract_polynomial(x, whole, coefficient + d, dim, run->degree, component[d], square);
+            for (int k = 0; out != NULL && k < count; k++) out[(done + k) * dim + d] = component[d][k];
+        }
+        for (int k = count; k < whole; k++) square[k] = 0;
+        note_errors(square, run->weights != NULL ? run->weights + done : NULL, count, whole, first + done, errors);
+    }
+}
