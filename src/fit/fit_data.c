@@ -1,6 +1,7 @@
 /* Data at the door: shapes, finite values, bounding box; then rows that repeat their neighbour. */
 #include "fit.h"
 #include "kernel.h"
+#include "scan.h"
 
 #include <math.h>
 #include <stdarg.h>
@@ -35,32 +36,35 @@ typedef struct scan {
     box *part;
 } scan;
 
+/* Row by row, where a chunk holds something that is not finite. */
+static void scan_rows(const scan *s, pia_index from, pia_index to, box *b)
+{
+    for (int d = 0; d < s->dim; d++) {
+        b->low[d] = INFINITY;
+        b->high[d] = -INFINITY;
+    }
+    for (pia_index i = from; i < to; i++) {
+        const double *p = s->points + i * s->dim;
+        int finite = 1, infinite = 0;
+        for (int d = 0; d < s->dim; d++) {
+            finite &= isfinite(p[d]) != 0;
+            infinite |= isinf(p[d]) != 0;
+        }
+        if (!finite && (infinite || !s->allow_holes) && b->bad < 0) b->bad = i;
+        b->holes |= !finite;
+        for (int d = 0; d < s->dim && finite; d++) {
+            b->low[d] = fmin(b->low[d], p[d]);
+            b->high[d] = fmax(b->high[d], p[d]);
+        }
+    }
+}
+
 static void scan_chunk(void *work, pia_index chunk)
 {
     const scan *s = work;
     box b = {.bad = -1};
-    for (int d = 0; d < s->dim; d++) {
-        b.low[d] = INFINITY;
-        b.high[d] = -INFINITY;
-    }
-    for (pia_index i = pia_chunk_begin(s->rows, s->chunks, chunk); i < pia_chunk_begin(s->rows, s->chunks, chunk + 1); i++) {
-        const double *p = s->points + i * s->dim;
-        double sum = 0;
-        for (int d = 0; d < s->dim; d++) sum += p[d] * 0; /* NaN as soon as one is not finite */
-        if (isnan(sum)) {
-            int infinite = 0;
-            for (int d = 0; d < s->dim; d++) infinite |= isinf(p[d]) != 0;
-            if (infinite || !s->allow_holes) {
-                if (b.bad < 0) b.bad = i;
-            }
-            b.holes = 1;
-            continue;
-        }
-        for (int d = 0; d < s->dim; d++) {
-            if (p[d] < b.low[d]) b.low[d] = p[d];
-            if (p[d] > b.high[d]) b.high[d] = p[d];
-        }
-    }
+    pia_index from = pia_chunk_begin(s->rows, s->chunks, chunk), to = pia_chunk_begin(s->rows, s->chunks, chunk + 1);
+    if (!pia_scan_box(s->points + from * s->dim, to - from, s->dim, b.low, b.high)) scan_rows(s, from, to, &b);
     s->part[chunk] = b;
 }
 

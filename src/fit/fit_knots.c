@@ -114,6 +114,7 @@ static pia_status fit_into_domain(pia_fit *fit, int d)
     double *t = fit->kind == PIA_SCATTERED ? fit->parameter[0] + d : fit->parameter[d];
     if (fit->parametrization != NULL && !fit->closed[d] && !(low == 0 && high == 1) && fit->placement == NULL)
         for (pia_index i = 0; i < count; i++) t[i * stride] = i == count - 1 ? high : low + (high - low) * t[i * stride];
+    if (stride == 1 && t[0] >= low && t[count - 1] <= high) return PIA_OK; /* they are in order */
     for (pia_index i = 0; i < count && !fit->closed[d]; i++)
         if (!(t[i * stride] >= low && t[i * stride] <= high))
             return pia_fail(fit->context, PIA_E_DATA, "parameter %.17g of row %lld lies outside the knots' domain [%.17g, %.17g]",

@@ -1,11 +1,13 @@
 /* Parameters of the rows: given ones are checked, others computed; rows that interpolation cannot tell apart are dropped; closed
  * directions are turned so that parameters rise through the domain of the knots. */
 #include "fit.h"
+#include "scan.h"
 
 #include <math.h>
 #include <string.h>
 
-static pia_status take_given(pia_fit *fit, const double *given, int direction, pia_index count, pia_index given_count)
+/* The first parameter that is not finite, falls, or leaves the period. */
+static pia_status refuse_given(pia_fit *fit, const double *given, int direction, pia_index given_count)
 {
     pia_context *context = fit->context;
     const char *where = fit->directions == 1 ? "" : direction == 0 ? "u " : "v ";
@@ -19,7 +21,15 @@ static pia_status take_given(pia_fit *fit, const double *given, int direction, p
             return pia_fail(context, PIA_E_DATA, "%sparameter %lld is %g; parameters of a closed direction lie in [0, 1)", where,
                             (long long)i, given[i]);
     }
-    if (!(given[0] < given[given_count - 1])) return pia_fail(context, PIA_E_DATA, "all %sparameters equal %g", where, given[0]);
+    return pia_fail(context, PIA_E_DATA, "all %sparameters equal %g", where, given[0]);
+}
+
+static pia_status take_given(pia_fit *fit, const double *given, int direction, pia_index count, pia_index given_count)
+{
+    pia_context *context = fit->context;
+    double first = given[0], last = given[given_count - 1];
+    if (!pia_scan_ordered(context, given, given_count) || !(first < last) || (fit->closed[direction] && !(first >= 0 && last <= 1)))
+        return refuse_given(fit, given, direction, given_count);
     if (fit->borrowed && fit->row == NULL && fit->directions == 1 && !fit->closed[0]) {
         fit->parameter[0] = (double *)(uintptr_t)given; /* never written while it is borrowed */
         fit->borrowed_parameters = 1;

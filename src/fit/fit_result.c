@@ -147,7 +147,10 @@ static pia_status make_model(pia_fit *fit, pia_model **out)
     return status;
 }
 
-/* Parameters are kept with the model where they cannot be computed again from the points: given and corrected ones. */
+enum { MOST_KEPT = 1000000 };
+
+/* Parameters are kept with the model where they cannot be computed again from the points, given and corrected ones, unless they are so
+ * many that a copy would weigh on memory. */
 static pia_status attach_summary(pia_fit *fit, pia_model *model)
 {
     const pia_memory *memory = pia_memory_of(fit->context);
@@ -155,7 +158,7 @@ static pia_status attach_summary(pia_fit *fit, pia_model *model)
     double *parameters = NULL;
     pia_status status = pia_fit_report(fit, &summary.report);
     if (status != PIA_OK) return status;
-    if (fit->parametrization == NULL || fit->parameters_moved) {
+    if ((fit->parametrization == NULL || fit->parameters_moved) && parameter_count(fit) <= MOST_KEPT) {
         parameters = pia_take(fit->context, parameter_count(fit), sizeof *parameters);
         if (parameters == NULL) return PIA_E_MEMORY;
         copy_parameters(fit, parameters);

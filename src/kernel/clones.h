@@ -1,7 +1,7 @@
-/* PIA_CLONES before a function: the compiler makes a version for processors with AVX2 beside the portable one, and the loader picks.
- * The bits are the same: sums keep their lanes, and multiplications and additions are never contracted. PIA_INLINE: functions that must
- * become part of every version. Sanitizers instrument the choice itself before they are
- * ready for it, and clang 14 cannot link it: they get one version. */
+/* PIA_CLONES before a static function (others would be seen outside the library): the compiler makes a version for processors with AVX2
+ * beside the portable one, and the loader picks. The bits are the same: sums keep their lanes, and multiplications and additions are
+ * never contracted. PIA_INLINE: functions that must become part of every version. Sanitizers instrument the choice itself before they
+ * are ready for it, and clang 14 cannot link it: they get one version. */
 #ifndef PIA_KERNEL_CLONES_H
 #define PIA_KERNEL_CLONES_H
 

@@ -51,7 +51,7 @@ PIA_INLINE int fill(const pia_run *run, pia_index done, int count, block *b)
     return whole;
 }
 
-PIA_CLONES void pia_run_moments(const pia_run *run, double *sums)
+PIA_CLONES static void add_moments(const pia_run *run, double *sums)
 {
     block b;
     pia_lanes sum[COLUMNS][ROWS];
@@ -63,4 +63,9 @@ PIA_CLONES void pia_run_moments(const pia_run *run, double *sums)
     }
     for (int c = 0; c < columns; c++)
         for (int j = 0; j < width; j++) sums[c * width + j] += (sum[c][j][0] + sum[c][j][1]) + (sum[c][j][2] + sum[c][j][3]);
+}
+
+void pia_run_moments(const pia_run *run, double *sums)
+{
+    add_moments(run, sums);
 }

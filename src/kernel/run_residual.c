@@ -62,7 +62,7 @@ PIA_INLINE void note_errors(double *square, const double *weight, int count, int
     errors->weighted += weight != NULL ? sum_lanes(square, whole) : sum;
 }
 
-PIA_CLONES void pia_run_residual(const pia_run *run, const double *coefficient, pia_index first, double *out, pia_run_errors *errors)
+PIA_CLONES static void residual(const pia_run *run, const double *coefficient, pia_index first, double *out, pia_run_errors *errors)
 {
     double x[PIA_BLOCK], component[PIA_MAX_DIM][PIA_BLOCK], square[PIA_BLOCK];
     int dim = run->dim;
@@ -76,4 +76,9 @@ PIA_CLONES void pia_run_residual(const pia_run *run, const double *coefficient, 
         for (int k = count; k < whole; k++) square[k] = 0;
         note_errors(square, run->weights != NULL ? run->weights + done : NULL, count, whole, first + done, errors);
     }
+}
+
+void pia_run_residual(const pia_run *run, const double *coefficient, pia_index first, double *out, pia_run_errors *errors)
+{
+    residual(run, coefficient, first, out, errors);
 }

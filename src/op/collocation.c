@@ -13,17 +13,33 @@ static pia_index spans(const pia_collocation *c)
     return c->full - c->degree;
 }
 
+/* The first row from `row` on whose parameter is not below `right`; steps double until they pass it. */
+static pia_index first_from(const pia_collocation *c, pia_index row, double right)
+{
+    pia_index low = row, high = row, step = 1;
+    while (high < c->rows && c->parameters[high] < right) {
+        low = high + 1;
+        high += step;
+        step *= 2;
+    }
+    if (high > c->rows) high = c->rows;
+    while (low < high) {
+        pia_index middle = low + (high - low) / 2;
+        if (c->parameters[middle] < right)
+            low = middle + 1;
+        else
+            high = middle;
+    }
+    return low;
+}
+
 static void find_begins(pia_collocation *c)
 {
     pia_index row = 0, last = spans(c) - 1;
     while (last > 0 && !(c->knots[c->degree + last] < c->knots[c->degree + last + 1])) last--;
     for (pia_index s = 0; s <= last; s++) {
         c->begin[s] = row;
-        double right = c->knots[c->degree + s + 1];
-        if (s == last)
-            row = c->rows;
-        else
-            while (row < c->rows && c->parameters[row] < right) row++;
+        row = s == last ? c->rows : first_from(c, row, c->knots[c->degree + s + 1]);
     }
     for (pia_index s = last + 1; s <= spans(c); s++) c->begin[s] = c->rows;
 }
