@@ -378,6 +378,8 @@ void pia_models_destroy(pia_model **models, pia_index count);
  * PIA_AUTO: enough for a picture. */
 pia_status pia_model_write(pia_context *context, const char *path, const char *format, const pia_model *const *models,
                            pia_index count, pia_index samples);
+/* Whether pia_model_write knows how to write such a file, so that a wrong name can be refused before the work. Errors: PIA_E_ARGUMENT. */
+pia_status pia_model_write_check(pia_context *context, const char *path, const char *format);
 
 /* How to read a file of points. */
 typedef struct pia_points_options {

@@ -121,6 +121,20 @@ pia_status pia_model_read(pia_context *context, const char *path, const char *fo
     return status;
 }
 
+static pia_status find_writer(pia_context *context, const char *path, const char *format, const pia_format **out)
+{
+    *out = find_format(context, path, format, "json");
+    if (*out == NULL) return PIA_E_ARGUMENT;
+    return (*out)->write_models != NULL ? PIA_OK : refuse_use(context, path, *out, "holds no models");
+}
+
+pia_status pia_model_write_check(pia_context *context, const char *path, const char *format)
+{
+    const pia_format *writer;
+    if (path == NULL) return pia_fail(context, PIA_E_ARGUMENT, "a path is needed");
+    return find_writer(context, path, format, &writer);
+}
+
 pia_status pia_model_write(pia_context *context, const char *path, const char *format, const pia_model *const *models, pia_index count,
                            pia_index samples)
 {
@@ -128,11 +142,11 @@ pia_status pia_model_write(pia_context *context, const char *path, const char *f
         return pia_fail(context, PIA_E_ARGUMENT, "a path and at least one model are needed");
     for (pia_index k = 0; k < count; k++)
         if (models[k] == NULL) return pia_fail(context, PIA_E_ARGUMENT, "model %lld is NULL", (long long)k);
-    const pia_format *writer = find_format(context, path, format, "json");
-    if (writer == NULL) return PIA_E_ARGUMENT;
-    if (writer->write_models == NULL) return refuse_use(context, path, writer, "holds no models");
+    const pia_format *writer;
+    pia_status status = find_writer(context, path, format, &writer);
+    if (status != PIA_OK) return status;
     pia_output *output;
-    pia_status status = pia_output_open(context, path, &output);
+    status = pia_output_open(context, path, &output);
     if (status != PIA_OK) return status;
     status = writer->write_models(context, output, models, count, samples);
     if (status == PIA_OK) return pia_output_commit(output);
