@@ -1,0 +1,91 @@
+/* pia fit, from request to outputs: job_options.c reads the command line into a fit_request, job_setup.c makes the library's data and
+ * options of it, job_run.c runs them, job_output.c writes the files, job_summary.c tells the result. */
+#ifndef PIA_CLI_FIT_JOB_H
+#define PIA_CLI_FIT_JOB_H
+
+#include "number_file.h"
+#include "point_source.h"
+#include "progress.h"
+
+enum fit_kind { KIND_BY_FILE, KIND_CURVE, KIND_SURFACE };
+
+struct fit_request {
+    struct session *session;
+    struct point_source source;
+    enum fit_kind kind;
+    int function_graph;
+    pia_fit_options options; /* what needs no file */
+    struct texts method_options, shape_options;
+    const char *parameters, *knots, *start; /* names or files, as given; NULL: not given */
+    const char *interpolate, *constraints, *corners, *freeze;
+    const char *weights, *tolerances;
+    const char *closed; /* "", "u", "v" or "uv" */
+    const char *format; /* --format: of the file that it turns out to mean */
+    const char *output_format;
+    struct texts outputs; /* -o */
+    const char *report, *trace, *checkpoint, *resume;
+    struct texts levels; /* numbers as written */
+    int levels_are_iterations;
+    int dry_run;
+};
+
+/* What one part of the file is fitted with; arrays are kept by the session, `start` is released by fit_task_close. */
+struct fit_task {
+    struct row_span span;
+    pia_data data;
+    pia_fit_options options;
+    pia_model **start;
+    pia_index start_count;
+};
+
+/* One fit, and its models at each level (one level when none were asked). */
+struct fit_result {
+    struct row_span span;
+    pia_report *report; /* [level_done] */
+    pia_model **model;  /* [level_done] */
+    pia_index level_done;
+    double *trace; /* [trace_count x TRACE_COLUMNS] */
+    pia_index trace_count;
+};
+
+enum { TRACE_COLUMNS = 7 };
+
+struct fit_job {
+    struct fit_request *request;
+    struct session *session;
+    struct point_set points;
+    pia_kind kind;
+    struct numbers parameters, weights, tolerances, knots; /* files that options name; count 0: none */
+    pia_index part_first, part_count;                      /* parts to fit */
+    struct fit_result *result;                             /* [part_done] */
+    pia_index part_done;                                   /* parts fitted: fewer after Ctrl-C */
+    struct texts outputs;                                  /* files written */
+    struct progress progress;
+    double read_seconds, fit_seconds, write_seconds;
+};
+
+/* job_options.c. Returns as arguments_parse. */
+int fit_request_parse(struct fit_request *request, struct session *session, int argc, char **argv);
+
+/* job_setup.c: reads the points and the files that options name; then one task for each part. */
+int fit_inputs_open(struct fit_job *job);
+void fit_inputs_close(struct fit_job *job);
+int fit_task_open(struct fit_job *job, pia_index part, struct fit_task *out);
+void fit_task_close(struct fit_task *task);
+
+/* job_run.c */
+int fit_run_task(struct fit_job *job, const struct fit_task *task, struct fit_result *result);
+int fit_run_resumed(struct fit_job *job, struct fit_result *result);
+void fit_result_close(struct fit_result *result);
+
+/* job_dry_run.c: says what would be done, and does nothing. */
+int fit_dry_run(struct fit_job *job, const struct fit_task *task);
+
+/* job_output.c: refuses outputs that cannot be written before any work is done; writes them. */
+int fit_outputs_check(struct fit_request *request);
+int fit_outputs_write(struct fit_job *job);
+
+/* job_summary.c: prints the text or the JSON, and returns the exit status. */
+int fit_summary_print(const struct fit_job *job);
+
+#endif

@@ -1,0 +1,156 @@
+#include <string.h>
+
+#include "fit_job.h"
+
+static void result_open(struct fit_job *job, const struct row_span *span, struct fit_result *out)
+{
+    pia_index levels = job->request->levels.count ? job->request->levels.count : 1;
+    *out = (struct fit_result){.span = *span};
+    out->report = session_keep(job->session, (size_t)levels, sizeof *out->report);
+    out->model = session_keep(job->session, (size_t)levels, sizeof(pia_model *));
+    for (pia_index i = 0; i < levels; i++) out->report[i].struct_size = sizeof *out->report;
+}
+
+void fit_result_close(struct fit_result *result)
+{
+    for (pia_index i = 0; i < result->level_done; i++) pia_model_destroy(result->model[i]);
+    result->level_done = 0;
+}
+
+static pia_status run_once(struct fit_job *job, const struct fit_task *task, struct fit_result *result)
+{
+    pia_status status = pia_fit_data(job->session->context, &task->data, &task->options, result->model, result->report);
+    result->level_done = status == PIA_OK;
+    return status;
+}
+
+/* ---- A fit that is stepped ---- */
+
+/* Runs to a stop in pieces of some seconds, each followed by a checkpoint. */
+static pia_status run_saving(pia_fit *fit, const char *path, pia_report *report)
+{
+    static const double PIECE_SECONDS = 10;
+    pia_index piece = 16;
+    pia_status status;
+    do {
+        double begin = seconds_now();
+        status = pia_fit_step(fit, piece, report);
+        if (seconds_now() - begin < PIECE_SECONDS / 2 && piece < INT32_MAX) piece *= 2;
+        if (status == PIA_OK) status = pia_fit_save(fit, path);
+    } while (status == PIA_OK && report->stop == PIA_STOP_NONE);
+    return status;
+}
+
+static pia_status run_to_stop(const struct fit_request *request, pia_fit *fit, pia_report *report)
+{
+    return request->checkpoint ? run_saving(fit, request->checkpoint, report) : pia_fit_run(fit, report);
+}
+
+/* One run through all levels: each sets its goal and goes on from the model of the one before. */
+static pia_status run_levels(const struct fit_request *request, pia_fit *fit, struct fit_result *result)
+{
+    const char *goal = request->levels_are_iterations ? "max_iterations" : "tolerance";
+    pia_index levels = request->levels.count ? request->levels.count : 1;
+    pia_status status = PIA_OK;
+    for (pia_index i = 0; status == PIA_OK && i < levels && !progress_interrupted(); i++) {
+        if (request->levels.count) status = pia_fit_set(fit, goal, request->levels.item[i]);
+        if (status == PIA_OK) status = run_to_stop(request, fit, &result->report[i]);
+        if (status == PIA_OK) status = pia_fit_model(fit, &result->model[i]);
+        if (status == PIA_OK) result->level_done++;
+    }
+    return status;
+}
+
+static void keep_trace(struct fit_job *job, const pia_fit *fit, struct fit_result *result)
+{
+    pia_trace_row row;
+    pia_index count = 0;
+    while (pia_fit_trace(fit, count, &row)) count++;
+    double *to = result->trace = session_keep(job->session, (size_t)count, TRACE_COLUMNS * sizeof *to);
+    for (result->trace_count = 0; pia_fit_trace(fit, result->trace_count, &row); result->trace_count++) {
+        const double values[TRACE_COLUMNS] = {(double)row.iteration, (double)row.control_count, row.max_error, row.rms_error,
+                                              row.adjust_max,        row.constraint_error,      row.seconds};
+        memcpy(to, values, sizeof values);
+        to += TRACE_COLUMNS;
+    }
+}
+
+static pia_status run_stepped(struct fit_job *job, pia_fit *fit, struct fit_result *result)
+{
+    pia_status status = run_levels(job->request, fit, result);
+    if (status == PIA_OK && job->request->trace) keep_trace(job, fit, result);
+    return status;
+}
+
+static int finish(struct fit_job *job, pia_status status, struct fit_result *result)
+{
+    progress_end(&job->progress);
+    int about_options = status == PIA_E_ARGUMENT || status == PIA_E_UNAVAILABLE;
+    int code = session_check(job->session, status, about_options ? NULL : job->request->source.path);
+    if (code) fit_result_close(result);
+    return code;
+}
+
+int fit_run_task(struct fit_job *job, const struct fit_task *task, struct fit_result *result)
+{
+    const struct fit_request *request = job->request;
+    result_open(job, &task->span, result);
+    if (!request->levels.count && !request->trace && !request->checkpoint) return finish(job, run_once(job, task, result), result);
+    pia_fit *fit = NULL;
+    pia_fit_options options = task->options;
+    if (request->levels.count && request->levels_are_iterations)
+        text_is_count(request->levels.item[request->levels.count - 1], &options.max_iterations);
+    else if (request->levels.count)
+        text_is_number(request->levels.item[0], &options.tolerance);
+    pia_status status = pia_fit_open(job->session->context, &task->data, &options, &fit);
+    if (status == PIA_OK) status = run_stepped(job, fit, result);
+    int code = finish(job, status, result);
+    pia_fit_close(fit);
+    return code;
+}
+
+/* ---- A fit that goes on ---- */
+
+static pia_status set_number(pia_fit *fit, const char *name, double value, double unset)
+{
+    char text[40];
+    if (value == unset) return PIA_OK;
+    snprintf(text, sizeof text, "%.17g", value);
+    return pia_fit_set(fit, name, text);
+}
+
+/* What this command line asks for replaces what the checkpoint remembers. */
+static pia_status set_again(struct fit_job *job, pia_fit *fit)
+{
+    const struct fit_request *request = job->request;
+    const pia_fit_options *options = &request->options;
+    pia_fit_options unset;
+    pia_fit_options_init(&unset);
+    pia_status status = set_number(fit, "tolerance", options->tolerance, unset.tolerance);
+    if (!status) status = set_number(fit, "max_iterations", (double)options->max_iterations, (double)unset.max_iterations);
+    if (!status) status = set_number(fit, "stop_change", options->stop_change, unset.stop_change);
+    if (!status) status = set_number(fit, "stop_gradient", options->stop_gradient, unset.stop_gradient);
+    if (!status) status = set_number(fit, "time_limit", options->time_limit, unset.time_limit);
+    pia_index every = request->trace && !options->trace_every ? 1 : options->trace_every;
+    if (!status) status = set_number(fit, "trace_every", (double)every, (double)unset.trace_every);
+    for (pia_index i = 0; !status && i < request->method_options.count; i++) {
+        const char *setting = request->method_options.item[i], *equals = strchr(setting, '=');
+        status = pia_fit_set(fit, session_text(job->session, "%.*s", (int)(equals - setting), setting), equals + 1);
+    }
+    return status;
+}
+
+int fit_run_resumed(struct fit_job *job, struct fit_result *result)
+{
+    pia_fit *fit = NULL;
+    const struct row_span span = {.count = INT64_MAX, .total = INT64_MAX};
+    result_open(job, job->points.file ? &result->span : &span, result);
+    int code = session_check(job->session, pia_fit_resume(job->session->context, job->request->resume, &fit), job->request->resume);
+    if (code) return code;
+    pia_fit_set_progress(fit, progress_tell, &job->progress);
+    pia_status status = set_again(job, fit);
+    if (status == PIA_OK) status = run_stepped(job, fit, result);
+    code = finish(job, status, result);
+    pia_fit_close(fit);
+    return code;
+}

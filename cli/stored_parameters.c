@@ -1,0 +1,93 @@
+#include "stored_parameters.h"
+
+#include <string.h>
+
+#include "registry.h"
+
+const double *grid_parameters(struct session *session, const double *u, const double *v, const pia_index count[2])
+{
+    double *pairs = session_keep(session, (size_t)(count[0] * count[1]), 2 * sizeof *pairs), *to = pairs;
+    for (pia_index i = 0; i < count[0]; i++)
+        for (pia_index j = 0; j < count[1]; j++) {
+            *to++ = u[i];
+            *to++ = v[j];
+        }
+    return pairs;
+}
+
+/* The parameters of a fit, by rows of the points: a closed curve may have been turned. */
+static const double *parameters_by_row(struct session *session, pia_fit *fit, const pia_points_info *points)
+{
+    const double *parameters = NULL;
+    const pia_index *row = NULL, *size = points->count;
+    pia_index count = 0;
+    int grid = points->kind == PIA_GRID;
+    if (pia_fit_parameters(fit, &parameters, &count, &row) != PIA_OK || !parameters) return NULL;
+    if (count != (grid ? size[0] + size[1] : size[0])) return NULL;
+    if (grid) return grid_parameters(session, parameters, parameters + size[0], size);
+    double *copy = session_keep(session, (size_t)count, sizeof *copy);
+    for (pia_index i = 0; i < count; i++) copy[row ? row[i] : i] = parameters[i];
+    return copy;
+}
+
+/* Those of a fit with these options that does not iterate. */
+static pia_status parameters_of_fit(struct session *session, const pia_points_info *points, pia_fit_options *options,
+                                    const double **out)
+{
+    pia_data data;
+    pia_fit *fit = NULL;
+    *out = NULL;
+    pia_data_init(&data);
+    data.kind = points->kind;
+    data.points = points->points;
+    data.dim = points->dim;
+    memcpy(data.count, points->count, sizeof data.count);
+    options->max_iterations = 0;
+    pia_status status = pia_fit_open(session->context, &data, options, &fit);
+    if (status == PIA_OK) *out = parameters_by_row(session, fit, points);
+    pia_fit_close(fit);
+    return status;
+}
+
+pia_status named_parameters(struct session *session, const pia_model *model, const pia_points_info *points, const char *name,
+                            const double **out)
+{
+    pia_fit_options options;
+    pia_fit_options_init(&options);
+    options.start = model;
+    options.parametrization = name;
+    return parameters_of_fit(session, points, &options, out);
+}
+
+/* The 2004 format measures chords in a way of its own, which a start model does not tell. */
+static const double *parameters_of_report(struct session *session, const pia_model *model, const pia_points_info *points,
+                                          const pia_report *report)
+{
+    const double *parameters;
+    pia_fit_options options;
+    pia_fit_options_init(&options);
+    if (strcmp(report->placement, "pia2004") == 0) {
+        options.method = "pia";
+        options.placement = report->placement;
+    } else
+        options.start = model;
+    options.parametrization = report->parametrization;
+    parameters_of_fit(session, points, &options, &parameters);
+    return parameters;
+}
+
+const double *stored_parameters(struct session *session, const pia_model *model, const pia_points_info *points)
+{
+    pia_index stored;
+    pia_model_info info = {.struct_size = sizeof info};
+    pia_report report = {.struct_size = sizeof report};
+    const pia_index *count = points->count, all = count[0] * count[1];
+    const double *parameters = pia_model_parameters(model, &stored);
+    pia_model_get_info(model, &info);
+    if (parameters && stored == info.directions * all) return parameters;
+    if (parameters && info.directions == 2 && stored == count[0] + count[1])
+        return grid_parameters(session, parameters, parameters + count[0], count);
+    if (parameters || !pia_model_report(model, &report) || report.kind != points->kind || report.point_count != all) return NULL;
+    if (!registry_has("parametrization", report.parametrization)) return NULL;
+    return parameters_of_report(session, model, points, &report);
+}
