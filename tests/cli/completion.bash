@@ -1,0 +1,34 @@
+# completion.bash PIA SCRIPT: what the completion offers for beginnings of command lines.
+PATH=$(dirname "$1"):$PATH
+# shellcheck source=/dev/null
+source "$2"
+failed=0
+
+# offers WORD... -- WANTED...: completing the last WORD offers all of WANTED.
+offers() {
+    COMP_WORDS=()
+    while [[ $1 != -- ]]; do
+        COMP_WORDS+=("$1")
+        shift
+    done
+    shift
+    COMP_CWORD=$((${#COMP_WORDS[@]} - 1))
+    _pia
+    for wanted; do
+        [[ " ${COMPREPLY[*]} " == *" $wanted "* ]] || {
+            echo "${COMP_WORDS[*]}: $wanted is not among ${COMPREPLY[*]}"
+            failed=1
+        }
+    done
+}
+
+offers pia '' -- fit eval check info convert plot list help
+offers pia c -- check convert
+offers pia fit --to -- --tolerance
+offers pia fit --method p -- pia
+offers pia fit --param ch -- chord
+offers pia check --f -- --foot-points --format
+offers pia list m -- methods
+offers pia help '' -- fit plot
+cd "$(dirname "$2")" && offers pia fit pia.b -- pia.bash
+exit $failed
