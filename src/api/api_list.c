@@ -30,10 +30,25 @@ static int list_limiters(pia_index index, pia_entry *out)
     return l != NULL && fill(out, l->name, l->title, l->reference, l->detail);
 }
 
+/* Optional parts, and whether this build has them. */
+static int list_parts(pia_index index, pia_entry *out)
+{
+    static const struct {
+        const char *name, *title;
+        int here;
+    } part[] = {
+        {"cairo", "pictures as SVG, PNG and PDF", PIA_HAVE_CAIRO},
+        {"cholmod", "sparse Cholesky for scattered surfaces", PIA_HAVE_CHOLMOD},
+    };
+    if (index >= (pia_index)(sizeof part / sizeof *part)) return 0;
+    return fill(out, part[index].name, part[index].title, NULL, part[index].here ? "in this build" : "not in this build");
+}
+
 int pia_list(const char *registry, pia_index index, pia_entry *out)
 {
     if (registry == NULL || out == NULL || index < 0) return 0;
     if (strcmp(registry, "method") == 0) return list_methods(index, out);
+    if (strcmp(registry, "part") == 0) return list_parts(index, out);
     if (strcmp(registry, "limiter") == 0) return list_limiters(index, out);
     if (strcmp(registry, "parametrization") == 0) {
         const pia_parametrization *p = pia_param_list(index);
