@@ -224,12 +224,12 @@ static void progress(walk *w, pia_fit *fit)
     pia_solve *s = &fit->solve;
     pia_iterate *it = &fit->iterate;
     pia_index size = fit->op->cols * fit->dim;
-    pia_index v[4] = {it->iteration, (pia_index)s->stop, s->best_iteration, s->first_iteration};
+    pia_index v[5] = {it->iteration, (pia_index)s->stop, s->best_iteration, s->first_iteration, s->blocked};
     double r[9] = {s->seconds,    s->start_error, s->rate,        s->safe_error,        s->last_error,
                    s->best_error, it->damping,    it->adjust_max, it->relative_gradient};
     array(w, "points_now", PIA_SECTION_DOUBLE, it->points, size);
     optional(w, "safe", PIA_SECTION_DOUBLE, &s->safe, size);
-    array(w, "loop_counts", PIA_SECTION_INDEX, v, 4);
+    array(w, "loop_counts", PIA_SECTION_INDEX, v, 5);
     array(w, "loop", PIA_SECTION_DOUBLE, r, 9);
     if (s->method->history != NULL && s->method_state != NULL) s->method->history(it, s->method_state, put_history, w);
     if (s->limiter != NULL && s->limiter->history != NULL) s->limiter->history(it, s->limiter_state, put_limit_history, w);
@@ -238,6 +238,7 @@ static void progress(walk *w, pia_fit *fit)
     s->stop = (pia_stop)v[1];
     s->best_iteration = v[2];
     s->first_iteration = v[3];
+    s->blocked = v[4];
     s->seconds = r[0];
     s->start_error = r[1];
     s->rate = r[2];

@@ -37,8 +37,7 @@ static int bends(const pia_iterate *iterate, convex *c, double factor)
 static pia_status limit(pia_iterate *iterate, void *state)
 {
     convex *c = state;
-    double longest = pia_iterate_longest(iterate, iterate->adjust), low = 0, high = 1;
-    if (!bends(iterate, c, 1)) return PIA_OK;
+    double longest = pia_iterate_longest(iterate, iterate->adjust), low = bends(iterate, c, 1) ? 0 : 1, high = 1;
     for (int k = 0; k < MAX_HALVINGS && (high - low) * longest > c->delta; k++) {
         double middle = low + (high - low) / 2;
         if (bends(iterate, c, middle))
@@ -46,8 +45,8 @@ static pia_status limit(pia_iterate *iterate, void *state)
         else
             low = middle;
     }
-    for (pia_index i = 0; i < iterate->op->cols * iterate->dim; i++) iterate->adjust[i] *= low;
-    iterate->stalled = low * longest < c->delta;
+    for (pia_index i = 0; i < iterate->op->cols; i++) c->scale[i] = low;
+    pia_polygon_shorten(iterate, c->scale, c->delta);
     return PIA_OK;
 }
 

@@ -40,11 +40,8 @@ static pia_status limit(pia_iterate *iterate, void *state)
     pia_index n = iterate->op->cols, left = 1;
     for (pia_index i = 0; i < n; i++) l->scale[i] = 1;
     for (int round = 0; round < MAX_ROUNDS && left > 0; round++) left = shorten(iterate, l);
-    for (pia_index i = 0; i < n; i++)
-        for (int d = 0; d < 2; d++) iterate->adjust[2 * i + d] *= left > 0 ? 0 : l->scale[i];
-    int shortened = left > 0;
-    for (pia_index i = 0; i < n && !shortened; i++) shortened = l->scale[i] < 1;
-    iterate->stalled = shortened && pia_iterate_longest(iterate, iterate->adjust) < l->delta;
+    for (pia_index i = 0; i < n && left > 0; i++) l->scale[i] = 0;
+    pia_polygon_shorten(iterate, l->scale, l->delta);
     return PIA_OK;
 }
 

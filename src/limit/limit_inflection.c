@@ -87,7 +87,7 @@ static pia_status limit(pia_iterate *iterate, void *state)
     if (!has_target(iterate, s)) choose_side(iterate, s);
     for (pia_index i = 0; i < iterate->op->cols; i++) s->scale[i] = 0;
     for (pia_index i = 0; i < iterate->op->cols; i++) move_vertex(iterate, s, i);
-    pia_polygon_shorten(iterate, s->scale, pia_iterate_longest(iterate, iterate->adjust), s->delta);
+    pia_polygon_shorten(iterate, s->scale, s->delta);
     return PIA_OK;
 }
 

@@ -72,7 +72,7 @@ static pia_status limit(pia_iterate *iterate, void *state)
         double nearest = i >= first && i < end ? nearest_ray(iterate, s->scale, i) : INFINITY;
         s->scale[i] = isinf(nearest) ? 1 : s->alpha * nearest;
     }
-    pia_polygon_shorten(iterate, s->scale, pia_iterate_longest(iterate, iterate->adjust), s->delta);
+    pia_polygon_shorten(iterate, s->scale, s->delta);
     return PIA_OK;
 }
 

@@ -55,9 +55,13 @@ int pia_polygon_sign(const pia_iterate *iterate, const double *scale, pia_index 
     return fabs(cross) <= 1e-12 * lengths ? 0 : cross > 0 ? 1 : -1;
 }
 
-void pia_polygon_shorten(pia_iterate *iterate, const double *scale, double longest, double delta)
+void pia_polygon_shorten(pia_iterate *iterate, const double *scale, double delta)
 {
-    for (pia_index i = 0; i < iterate->op->cols; i++)
+    double asked = pia_iterate_longest(iterate, iterate->adjust);
+    iterate->shortened = 0;
+    for (pia_index i = 0; i < iterate->op->cols; i++) {
         for (int d = 0; d < 2; d++) iterate->adjust[2 * i + d] *= scale[i];
-    iterate->stalled = longest >= delta && pia_iterate_longest(iterate, iterate->adjust) < delta;
+        iterate->shortened |= scale[i] < 1;
+    }
+    iterate->stalled = asked >= delta && pia_iterate_longest(iterate, iterate->adjust) < delta;
 }

@@ -23,8 +23,8 @@ void pia_polygon_point(const pia_iterate *iterate, const double *scale, pia_inde
  * gets 0. Returns 0 when all of them are straight, 1 otherwise. O(cols). */
 int pia_polygon_targets(const pia_iterate *iterate, const double *scale, double *sign);
 
-/* After a limiter has chosen a factor for each step, from `longest` the longest one asked: D *= scale, and the fit is stalled where
- * steps of delta or more were asked but none is left. */
-void pia_polygon_shorten(pia_iterate *iterate, const double *scale, double longest, double delta);
+/* Once a limiter has chosen a factor for each step: D *= scale, and the fit is stalled where steps of delta or more were asked but none
+ * is left. */
+void pia_polygon_shorten(pia_iterate *iterate, const double *scale, double delta);
 
 #endif

@@ -26,6 +26,7 @@ typedef struct pia_iterate {
     double damping;           /* the loop's factor on the steps of interpolating methods: 1, halved where steps grow */
     double constraint_error;  /* largest violation of P, units of the points; NAN without constraints */
     int stalled;              /* set by a method or limiter: no step helps any more */
+    int shortened;            /* set by a limiter: it did not leave the step as it was */
     int finished;             /* set by a finite method: P is the limit, this step is none */
     int square;               /* 1: interpolation, each unknown owns a row; 0: least squares */
     pia_status (*project)(struct pia_iterate *iterate); /* moves the parameters to the closest points of the current iterate; NULL where

@@ -3,6 +3,7 @@
 #include "constraint.h"
 #include "kernel.h"
 #include "stop.h"
+#include "unmet.h"
 
 #include <math.h>
 #include <string.h>
@@ -35,11 +36,12 @@ pia_status pia_solve_begin(pia_solve *solve, const pia_values *method_values, co
     if (status == PIA_OK && solve->limiter != NULL)
         status = take_state(iterate->context, solve->limiter->state_size, &solve->limiter_state);
     iterate->damping = 1;
-    iterate->stalled = iterate->finished = 0;
+    iterate->stalled = iterate->shortened = iterate->finished = 0;
     iterate->relative_gradient = NAN;
     iterate->adjust_max = 0;
     solve->rate = solve->last_error = solve->best_error = NAN;
     solve->safe_error = INFINITY;
+    solve->blocked = 0;
     solve->best_iteration = iterate->iteration;
     if (!solve->begun) solve->start_error = NAN;
     solve->stop = PIA_STOP_NONE;
@@ -213,7 +215,8 @@ static pia_status iterate_once(pia_solve *solve)
         status = note_errors(solve);
     }
     if (status == PIA_OK && rows) status = keep_safe(solve);
-    solve->stop = status == PIA_OK ? pia_stop_after(solve) : PIA_STOP_NONE;
+    if (status == PIA_OK) status = pia_unmet_watch(solve);
+    if (status == PIA_OK && solve->stop == PIA_STOP_NONE) solve->stop = pia_stop_after(solve);
     if (solve->stop != PIA_STOP_NONE) {
         iterate->adjust_max = last_change;
         return status;

@@ -30,8 +30,9 @@ typedef struct pia_solve {
     double seconds;     /* spent so far */
     double start_error; /* largest deviation of iterate 0; NAN until measured */
     double rate;        /* observed factor of the error an iteration, smoothed; NAN until known */
-    double *safe;       /* the iterate to return to when steps grow [cols x dim]; NULL until needed */
-    double safe_error;
+    double *safe;       /* the iterate to return to when steps grow or constraints cannot be met [cols x dim]; NULL until needed */
+    double safe_error;  /* its largest deviation, or violation */
+    pia_index blocked;  /* limited steps in a row that have not met the constraints better by a tenth */
     double last_error;
     double best_error; /* smallest error so far, and when it was reached */
     pia_index best_iteration;

@@ -1,7 +1,5 @@
 #include "stop.h"
 
-#include "constraint.h"
-
 enum { PATIENCE = 400 }; /* iterations without a thousandth of progress before an interpolation counts as stalled */
 
 int pia_stop_needs_errors(const pia_solve *solve)
@@ -21,15 +19,6 @@ pia_stop pia_stop_before(const pia_solve *solve)
     return PIA_STOP_NONE;
 }
 
-/* Steps vanish while constraints are unmet: only a limiter can hold them back. */
-static pia_stop why_stalled(const pia_solve *solve)
-{
-    const pia_iterate *iterate = solve->iterate;
-    if (solve->limiter == NULL || iterate->constraints == NULL) return PIA_STOP_STALLED;
-    double unmet = pia_constraints_violation(iterate->constraints, iterate->points, NULL);
-    return unmet > 1e-9 * iterate->extent ? PIA_STOP_INFEASIBLE : PIA_STOP_STALLED;
-}
-
 pia_stop pia_stop_after(const pia_solve *solve)
 {
     const pia_iterate *iterate = solve->iterate;
@@ -37,7 +26,7 @@ pia_stop pia_stop_after(const pia_solve *solve)
     if (iterate->finished) return PIA_STOP_FINITE;
     if (rules->tolerance > 0 && iterate->errors_known && iterate->errors.max <= rules->tolerance) return PIA_STOP_TOLERANCE;
     if (rules->gradient > 0 && iterate->relative_gradient <= rules->gradient) return PIA_STOP_GRADIENT;
-    if (iterate->stalled) return why_stalled(solve);
+    if (iterate->stalled) return PIA_STOP_STALLED;
     if (iterate->square && rules->change > 0 && iterate->errors_known && iterate->iteration - solve->best_iteration >= PATIENCE)
         return PIA_STOP_STALLED;
     if (rules->change > 0 && iterate->adjust_max <= rules->change) return PIA_STOP_CHANGE;
