@@ -1,5 +1,6 @@
 /* What the options leave open: method, parametrization, placement, limiter. Choices made by the library are noted. */
 #include "fit.h"
+#include "model.h"
 
 #include <math.h>
 #include <string.h>
@@ -33,11 +34,22 @@ static pia_status unknown(pia_fit *fit, const char *registry, const char *name)
                     names_of(registry, text, sizeof text));
 }
 
+/* Whether the start model has a control point for each row: the 2004 format has two more. */
+static int start_is_square(const pia_fit *fit)
+{
+    const pia_model *start = fit->options.start;
+    for (int d = 0; d < fit->directions; d++) {
+        pia_index n = start->control[d] - (start->periodic[d] ? start->degree[d] : 0);
+        if (n != fit->count[d] && (n != fit->count[d] + 2 || start->degree[d] != 3)) return 0;
+    }
+    return 1;
+}
+
 /* Fewer control points than data, constraints, holes or given weights make it least squares; else the data are interpolated. */
 static int wants_least_squares(const pia_fit *fit)
 {
     const pia_fit_options *o = &fit->options;
-    int fewer = 0;
+    int fewer = o->start != NULL && !start_is_square(fit);
     for (int d = 0; d < fit->directions; d++) {
         pia_index count = fit->kind == PIA_SCATTERED ? -1 : fit->count[d];
         if (o->control[d] != PIA_AUTO && o->control[d] != count) fewer = 1;
@@ -186,6 +198,9 @@ void pia_fit_names(const pia_fit *fit, pia_report *report)
     copy_name(report->method, sizeof report->method, fit->solve.method->name);
     copy_name(report->parametrization, sizeof report->parametrization,
               fit->parametrization != NULL ? fit->parametrization->name : "given");
-    copy_name(report->placement, sizeof report->placement, fit->placement != NULL ? fit->placement->name : "given");
+    copy_name(report->placement, sizeof report->placement,
+              fit->refining            ? "adaptive"
+              : fit->placement != NULL ? fit->placement->name
+                                       : "given");
     copy_name(report->limiter, sizeof report->limiter, fit->solve.limiter != NULL ? fit->solve.limiter->name : "none");
 }
