@@ -1,0 +1,348 @@
+/* Fewest control points at equal tolerance: every curve of the manifest at three tolerances, ours beside SISL, OpenCASCADE and SciPy.
+ * One program measures all results: the largest distance from a data point to its closest point of the curve.
+ *
+ *     bench_fewest [--data DIRECTORY] [--only TEXT] [--distance] [--peers NAME,NAME | --no-peers] [--limit SECONDS]
+ *
+ * A peer that does not reach the tolerance is asked again for a smaller one, and the first result that reaches it counts, with the
+ * time of that attempt alone. */
+#include <fcntl.h>
+#include <math.h>
+#include <signal.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/wait.h>
+#include <time.h>
+#include <unistd.h>
+
+#include "pia/pia.h"
+
+enum { MAX_CASES = 400, PEERS = 3 };
+static const double relative[] = {1e-2, 1e-3, 1e-4};
+static const char *const peer_names[PEERS] = {"sisl", "occt", "scipy"};
+
+typedef struct settings {
+    const char *data, *only, *directory;
+    int distance, peers;
+    double limit;
+} settings;
+
+typedef struct curve {
+    char name[128];
+    int dim, closed;
+    pia_index rows;
+    double *points, extent;
+} curve;
+
+typedef struct outcome {
+    pia_index control; /* 0: none */
+    double seconds, error;
+    int reached;
+} outcome;
+
+static double now(void)
+{
+    struct timespec t;
+    clock_gettime(CLOCK_MONOTONIC, &t);
+    return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
+}
+
+/* ---- the cases ---- */
+
+/* Drops repeated rows, which no peer accepts, and gives closed curves their last point. */
+static void clean(curve *c)
+{
+    pia_index kept = 0;
+    size_t size = (size_t)c->dim * sizeof(double);
+    for (pia_index i = 0; i < c->rows; i++)
+        if (kept == 0 || memcmp(c->points + i * c->dim, c->points + (kept - 1) * c->dim, size) != 0)
+            memmove(c->points + kept++ * c->dim, c->points + i * c->dim, size);
+    if (c->closed && memcmp(c->points, c->points + (kept - 1) * c->dim, size) != 0)
+        memcpy(c->points + kept++ * c->dim, c->points, size);
+    c->rows = kept;
+    double square = 0;
+    for (int d = 0; d < c->dim; d++) {
+        double low = INFINITY, high = -INFINITY;
+        for (pia_index i = 0; i < kept; i++) {
+            low = fmin(low, c->points[i * c->dim + d]);
+            high = fmax(high, c->points[i * c->dim + d]);
+        }
+        square += (high - low) * (high - low);
+    }
+    c->extent = sqrt(square);
+}
+
+/* One line of the manifest; 0 when its file is not there. */
+static int load(pia_context *context, const settings *s, const char *line, curve *c)
+{
+    char columns[32], path[512], list[64];
+    long first, last = -1;
+    int from, to;
+    if (sscanf(line, "%127[^,],%31[^,],%ld,%ld,%d", c->name, columns, &first, &last, &c->closed) < 5 &&
+        sscanf(line, "%127[^,],%31[^,],%ld,,%d", c->name, columns, &first, &c->closed) < 4)
+        return 0;
+    if (s->only != NULL && strstr(c->name, s->only) == NULL) return 0;
+    snprintf(path, sizeof path, "%s/%s", s->data, c->name);
+    sscanf(columns, "%d-%d", &from, &to);
+    for (int k = from, n = 0; k != to + (to > from ? 1 : -1); k += to > from ? 1 : -1)
+        n += snprintf(list + n, sizeof list - (size_t)n, n > 0 ? ",%d" : "%d", k);
+    pia_points_options options;
+    pia_points_options_init(&options);
+    options.columns = list;
+    options.skip_invalid = 1;
+    pia_points *points;
+    pia_points_info info;
+    if (pia_points_read(context, path, &options, &points) != PIA_OK) {
+        fprintf(stderr, "%s: left out: %s\n", c->name, pia_message(context));
+        return 0;
+    }
+    pia_points_get_info(points, &info);
+    c->dim = info.dim;
+    c->rows = last >= 0 ? last + 1 - first : info.count[0] - first;
+    c->points = malloc((size_t)((c->rows + 1) * c->dim) * sizeof(double));
+    memcpy(c->points, info.points + first * c->dim, (size_t)(c->rows * c->dim) * sizeof(double));
+    pia_points_destroy(points);
+    clean(c);
+    return 1;
+}
+
+/* ---- the programs ---- */
+
+static outcome measure(pia_context *context, const curve *c, const pia_model *model, double tolerance, outcome out)
+{
+    pia_deviation deviation = {.struct_size = sizeof deviation};
+    if (pia_model_deviation(context, model, c->points, c->rows, NULL, &deviation, NULL) != PIA_OK) return (outcome){0};
+    out.error = deviation.max_error;
+    out.reached = out.error <= tolerance * (1 + 1e-9);
+    return out;
+}
+
+static outcome ours(pia_context *context, const settings *s, const curve *c, double tolerance)
+{
+    pia_data data;
+    pia_fit_options options;
+    pia_report report = {.struct_size = sizeof report};
+    pia_model *model;
+    pia_data_init(&data);
+    data.points = c->points;
+    data.count[0] = c->rows;
+    data.dim = c->dim;
+    pia_fit_options_init(&options);
+    options.closed[0] = c->closed;
+    options.tolerance = tolerance;
+    options.measure_distance = s->distance;
+    options.time_limit = s->limit;
+    double start = now();
+    if (pia_fit_data(context, &data, &options, &model, &report) != PIA_OK) {
+        fprintf(stderr, "%s: %s\n", c->name, pia_message(context));
+        return (outcome){0};
+    }
+    outcome out = measure(context, c, model, tolerance, (outcome){report.control_count, now() - start, 0, 0});
+    if (report.reached == 1 && !out.reached) printf("WRONG: %s says reached at %g but deviates %g\n", c->name, tolerance, out.error);
+    pia_model_destroy(model);
+    return out;
+}
+
+static void write_case(const curve *c, double tolerance, const char *path)
+{
+    FILE *file = fopen(path, "w");
+    if (file == NULL) exit(4);
+    fprintf(file, "%lld %d %d %.17g\n", (long long)c->rows, c->dim, c->closed, tolerance);
+    for (pia_index i = 0; i < c->rows; i++)
+        for (int d = 0; d < c->dim; d++) fprintf(file, d + 1 < c->dim ? "%.17g " : "%.17g\n", c->points[i * c->dim + d]);
+    fclose(file);
+}
+
+/* Runs a peer with its standard output in `result`; 0 when it failed or took longer than `limit` seconds. */
+static int run_peer(const settings *s, int peer, const char *path, const char *result, double limit)
+{
+    pid_t child = fork();
+    if (child == 0) {
+        char program[600];
+        int out = open(result, O_WRONLY | O_CREAT | O_TRUNC, 0644), silent = open("/dev/null", O_WRONLY);
+        dup2(out, STDOUT_FILENO);
+        dup2(silent, STDERR_FILENO);
+        snprintf(program, sizeof program, "%s/peer_%s", s->directory, peer_names[peer]);
+        if (strcmp(peer_names[peer], "scipy") == 0)
+            execlp("/usr/bin/python3", "python3", PIA_BENCH "/peers/peer_scipy.py", path, (char *)NULL);
+        else
+            execl(program, program, path, (char *)NULL);
+        _exit(127);
+    }
+    double start = now();
+    int status;
+    while (waitpid(child, &status, WNOHANG) == 0) {
+        if (now() - start > limit) {
+            kill(child, SIGKILL);
+            waitpid(child, &status, 0);
+            return 0;
+        }
+        nanosleep(&(struct timespec){0, 2000000}, NULL);
+    }
+    return WIFEXITED(status) && WEXITSTATUS(status) == 0;
+}
+
+static outcome read_result(pia_context *context, const curve *c, const char *path, double tolerance)
+{
+    outcome out = {0};
+    int degree;
+    long control, counted;
+    FILE *file = fopen(path, "r");
+    if (file == NULL) return out;
+    if (fscanf(file, "%lf %d %ld %ld", &out.seconds, &degree, &control, &counted) == 4) {
+        pia_index knots = control + degree + 1, values = knots + control * c->dim, read = 0, count[2] = {control, 1};
+        double *value = malloc((size_t)values * sizeof *value);
+        const double *knot[2] = {value, NULL};
+        while (read < values && fscanf(file, "%lf", &value[read]) == 1) read++;
+        pia_model *model;
+        if (read == values && pia_model_create(context, 1, &degree, knot, count, c->dim, value + knots, NULL, &model) == PIA_OK) {
+            out.control = counted;
+            out = measure(context, c, model, tolerance, out);
+            pia_model_destroy(model);
+        }
+        free(value);
+    }
+    fclose(file);
+    return out;
+}
+
+static outcome theirs(pia_context *context, const settings *s, int peer, const curve *c, double tolerance)
+{
+    char path[64], result[64];
+    snprintf(path, sizeof path, "fewest_%d.case", (int)getpid());
+    snprintf(result, sizeof result, "fewest_%d.result", (int)getpid());
+    outcome out = {0};
+    double factor = 1, start = now();
+    for (int attempt = 0; attempt < 4 && !out.reached && now() - start < s->limit; attempt++, factor *= 0.7) {
+        write_case(c, tolerance * factor, path);
+        out = run_peer(s, peer, path, result, s->limit - (now() - start)) ? read_result(context, c, result, tolerance) : (outcome){0};
+        if (out.control == 0) break;
+    }
+    remove(path);
+    remove(result);
+    return out;
+}
+
+/* ---- the table ---- */
+
+static int ascending(const void *a, const void *b)
+{
+    double x = *(const double *)a, y = *(const double *)b;
+    return (x > y) - (x < y);
+}
+
+static double quantile(double *value, int count, double share)
+{
+    qsort(value, (size_t)count, sizeof *value, ascending);
+    return count > 0 ? value[(int)(share * (count - 1))] : NAN;
+}
+
+typedef struct totals {
+    double ratio[MAX_CASES];
+    int ratios, cases, reached, peer_reached[PEERS];
+    double our_time[PEERS], peer_time[PEERS]; /* over the cases that both reached */
+    double seconds;
+} totals;
+
+static void print_cell(const outcome *o)
+{
+    if (o->control == 0)
+        printf(" | %7s %9s ", "-", "-");
+    else
+        printf(" | %7lld %9.4f%c", (long long)o->control, o->seconds, o->reached ? ' ' : '!');
+}
+
+static void run_case(pia_context *context, const settings *s, const curve *c, double tolerance, totals *t)
+{
+    outcome mine = ours(context, s, c, tolerance * c->extent), best = {0};
+    printf("%-38s %6lld %5.0e", c->name, (long long)c->rows, tolerance);
+    print_cell(&mine);
+    t->cases++;
+    t->reached += mine.reached;
+    t->seconds += mine.seconds;
+    for (int peer = 0; peer < PEERS; peer++) {
+        if ((s->peers >> peer & 1) == 0) continue;
+        outcome o = theirs(context, s, peer, c, tolerance * c->extent);
+        print_cell(&o);
+        if (!o.reached) continue;
+        t->peer_reached[peer]++;
+        t->our_time[peer] += mine.seconds;
+        t->peer_time[peer] += o.seconds;
+        if (best.control == 0 || o.control < best.control) best = o;
+    }
+    if (mine.reached && best.control > 0) {
+        t->ratio[t->ratios++] = (double)mine.control / (double)best.control;
+        printf(" | %6.3f", t->ratio[t->ratios - 1]);
+    }
+    printf("\n");
+    fflush(stdout);
+}
+
+static void print_totals(const settings *s, totals *t)
+{
+    printf("%d cases, %d reached, %.3f s\n", t->cases, t->reached, t->seconds);
+    for (int peer = 0; peer < PEERS; peer++)
+        if ((s->peers >> peer & 1) != 0)
+            printf("%-6s reached %d; time over these cases %.3f s, ours %.3f s, ratio %.2f\n", peer_names[peer], t->peer_reached[peer],
+                   t->peer_time[peer], t->our_time[peer], t->peer_time[peer] / t->our_time[peer]);
+    if (t->ratios > 0)
+        printf("control points, ours / best peer's: median %.3f, nine of ten at most %.3f, worst %.3f\n",
+               quantile(t->ratio, t->ratios, 0.5), quantile(t->ratio, t->ratios, 0.9), quantile(t->ratio, t->ratios, 1));
+}
+
+static settings parse(int argc, char **argv)
+{
+    settings s = {.data = PIA_BENCH "/../data", .directory = ".", .peers = (1 << PEERS) - 1, .limit = 60};
+    static char directory[512];
+    char *slash = strrchr(argv[0], '/');
+    if (slash != NULL) {
+        snprintf(directory, sizeof directory, "%.*s", (int)(slash - argv[0]), argv[0]);
+        s.directory = directory;
+    }
+    for (int i = 1; i < argc; i++) {
+        if (strcmp(argv[i], "--data") == 0 && i + 1 < argc)
+            s.data = argv[++i];
+        else if (strcmp(argv[i], "--only") == 0 && i + 1 < argc)
+            s.only = argv[++i];
+        else if (strcmp(argv[i], "--limit") == 0 && i + 1 < argc)
+            s.limit = atof(argv[++i]);
+        else if (strcmp(argv[i], "--distance") == 0)
+            s.distance = 1;
+        else if (strcmp(argv[i], "--no-peers") == 0)
+            s.peers = 0;
+        else if (strcmp(argv[i], "--peers") == 0 && i + 1 < argc) {
+            i++;
+            s.peers = 0;
+            for (int peer = 0; peer < PEERS; peer++) s.peers |= (strstr(argv[i], peer_names[peer]) != NULL) << peer;
+        } else {
+            fprintf(stderr, "bench_fewest: unknown argument %s\n", argv[i]);
+            exit(2);
+        }
+    }
+    return s;
+}
+
+int main(int argc, char **argv)
+{
+    settings s = parse(argc, argv);
+    pia_context *context;
+    static totals t;
+    char line[256];
+    FILE *manifest = fopen(PIA_BENCH "/fewest_manifest.csv", "r");
+    if (manifest == NULL || pia_context_create(NULL, &context) != PIA_OK) return 4;
+    printf("%-38s %6s %5s | %-17s", "curve", "rows", "T", "ours: n, seconds");
+    for (int peer = 0; peer < PEERS; peer++)
+        if ((s.peers >> peer & 1) != 0) printf(" | %-17s", peer_names[peer]);
+    printf(" | ours / best\n");
+    while (fgets(line, sizeof line, manifest) != NULL) {
+        curve c;
+        if (strncmp(line, "file,", 5) == 0 || !load(context, &s, line, &c)) continue;
+        for (size_t k = 0; k < sizeof relative / sizeof *relative && t.cases < MAX_CASES; k++)
+            run_case(context, &s, &c, relative[k], &t);
+        free(c.points);
+    }
+    fclose(manifest);
+    print_totals(&s, &t);
+    pia_context_destroy(context);
+    return 0;
+}
