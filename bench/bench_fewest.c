@@ -49,27 +49,35 @@ static double now(void)
 
 /* ---- the cases ---- */
 
-/* Drops repeated rows, which no peer accepts, and gives closed curves their last point. */
-static void clean(curve *c)
+static double extent_of(const curve *c)
 {
-    pia_index kept = 0;
-    size_t size = (size_t)c->dim * sizeof(double);
-    for (pia_index i = 0; i < c->rows; i++)
-        if (kept == 0 || memcmp(c->points + i * c->dim, c->points + (kept - 1) * c->dim, size) != 0)
-            memmove(c->points + kept++ * c->dim, c->points + i * c->dim, size);
-    if (c->closed && memcmp(c->points, c->points + (kept - 1) * c->dim, size) != 0)
-        memcpy(c->points + kept++ * c->dim, c->points, size);
-    c->rows = kept;
     double square = 0;
     for (int d = 0; d < c->dim; d++) {
         double low = INFINITY, high = -INFINITY;
-        for (pia_index i = 0; i < kept; i++) {
+        for (pia_index i = 0; i < c->rows; i++) {
             low = fmin(low, c->points[i * c->dim + d]);
             high = fmax(high, c->points[i * c->dim + d]);
         }
         square += (high - low) * (high - low);
     }
-    c->extent = sqrt(square);
+    return sqrt(square);
+}
+
+/* Drops repeated rows, which no peer accepts, and lets closed curves end where they begin. */
+static void clean(curve *c)
+{
+    pia_index kept = 0;
+    double gap = 0;
+    size_t size = (size_t)c->dim * sizeof(double);
+    for (pia_index i = 0; i < c->rows; i++)
+        if (kept == 0 || memcmp(c->points + i * c->dim, c->points + (kept - 1) * c->dim, size) != 0)
+            memmove(c->points + kept++ * c->dim, c->points + i * c->dim, size);
+    c->rows = kept;
+    c->extent = extent_of(c);
+    if (!c->closed) return;
+    for (int d = 0; d < c->dim; d++) gap = fmax(gap, fabs(c->points[(kept - 1) * c->dim + d] - c->points[d]));
+    if (gap > 1e-12 * c->extent) c->rows++;
+    memcpy(c->points + (c->rows - 1) * c->dim, c->points, size);
 }
 
 /* One line of the manifest; 0 when its file is not there. */

@@ -307,14 +307,25 @@ static pia_status check_shape(pia_fit *fit, const pia_data *data)
     return PIA_OK;
 }
 
+/* Two points are one: a closed curve whose ends were computed may miss itself by rounding. */
+static int same_point(const pia_fit *fit, pia_index row, pia_index other)
+{
+    double square = 0;
+    for (int d = 0; d < fit->dim; d++) {
+        double a = fit->points[row * fit->dim + d], b = fit->points[other * fit->dim + d];
+        if (isnan(a) && isnan(b)) continue;
+        square += (a - b) * (a - b);
+    }
+    return sqrt(square) <= 1e-14 * fit->extent;
+}
+
 /* A closed direction whose last point (line) repeats the first one drops it. */
 static pia_status drop_seam(pia_fit *fit, int direction)
 {
     pia_index lines = fit->count[direction], other = fit->rows / lines;
-    size_t bytes = (size_t)fit->dim * sizeof(double);
     for (pia_index j = 0; j < other; j++) {
         pia_index first = direction == 0 ? j : j * lines, last = direction == 0 ? (lines - 1) * other + j : j * lines + lines - 1;
-        if (memcmp(fit->points + first * fit->dim, fit->points + last * fit->dim, bytes) != 0) return PIA_OK;
+        if (!same_point(fit, first, last)) return PIA_OK;
     }
     unsigned char *keep = pia_take(fit->context, lines, 1);
     if (keep == NULL) return PIA_E_MEMORY;
