@@ -68,6 +68,7 @@ struct pia_fit {
     pia_notes notes;
     int refining;           /* knots are still to be found for a tolerance */
     pia_index round;        /* rounds of growing, sparing, correcting */
+    double began;           /* of a refinement: when it would have begun if it had not been interrupted */
     double *all_parameters; /* of a grid, u then v, once asked for; NULL before */
     double seconds;         /* spent in opening */
 };

@@ -44,6 +44,13 @@ static void describe(const pia_fit *fit, pia_report *report)
     }
 }
 
+/* From the errors just measured. */
+static int reached(const pia_fit *fit)
+{
+    if (fit->refining) return pia_refine_worst(fit, 0, fit->rows) <= 1;
+    return fit->options.tolerance > 0 ? fit->iterate.errors.max <= fit->options.tolerance : PIA_AUTO;
+}
+
 pia_status pia_fit_report(pia_fit *fit, pia_report *report)
 {
     const pia_iterate *iterate = &fit->iterate;
@@ -56,7 +63,7 @@ pia_status pia_fit_report(pia_fit *fit, pia_report *report)
     full.max_error = iterate->errors.max;
     full.max_error_index = data_row(fit, iterate->errors.max_row);
     full.rms_error = iterate->errors.count > 0 ? sqrt(iterate->errors.sum_squares / (double)iterate->errors.count) : 0;
-    full.reached = fit->options.tolerance > 0 ? iterate->errors.max <= fit->options.tolerance : PIA_AUTO;
+    full.reached = reached(fit);
     full.constraint_error = iterate->constraint_error;
     full.relative_gradient = iterate->relative_gradient;
     full.start_error = isnan(fit->solve.start_error) ? full.max_error : fit->solve.start_error;

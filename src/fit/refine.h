@@ -8,6 +8,19 @@
  * set: PIA_STOP_TOLERANCE, or why the tolerance could not be had. */
 pia_status pia_refine_curve(pia_fit *fit);
 
+/* One round of growing: knots where the error is, least squares. *grown is 0 when no span could be split. */
+pia_status pia_refine_grow(pia_fit *fit, int *grown);
+/* Interpolation, where growing ends: every row met, if all parameters differ (*possible). */
+pia_status pia_refine_interpolate(pia_fit *fit, int *possible);
+/* Takes knots away as long as no row deviates more than it may. */
+pia_status pia_refine_spare(pia_fit *fit, pia_index *spared);
+
+/* What a row may deviate; the largest deviation over that among rows begin .. end - 1, from the residuals. */
+double pia_refine_allowed(const pia_fit *fit, pia_index row);
+double pia_refine_worst(const pia_fit *fit, pia_index begin, pia_index end);
+/* Between rounds: calls the progress callback and looks at the clock. Returns 1, with solve.stop set, when the fit is to stop. */
+int pia_refine_stopped(pia_fit *fit);
+
 /* Replaces the knots of a curve by `knots` (borrowed; open: control + degree + 1, closed: one period of `control` knots) and rebuilds
  * operator and normal form. The control points are left undefined. */
 pia_status pia_refine_install(pia_fit *fit, const double *knots, pia_index control);

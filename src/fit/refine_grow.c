@@ -1,0 +1,138 @@
+/* Growing: every span that deviates too much is split into as many parts as the order of approximation says, several spans a round. */
+#include "refine.h"
+
+#include <math.h>
+#include <string.h>
+
+enum { MOST_PARTS = 8 };
+
+double pia_refine_allowed(const pia_fit *fit, pia_index row)
+{
+    return fit->tolerances != NULL ? fit->tolerances[row] : fit->options.tolerance;
+}
+
+static double row_ratio(const pia_fit *fit, pia_index row)
+{
+    const double *r = fit->iterate.residual + row * fit->dim;
+    double square = 0;
+    for (int d = 0; d < fit->dim; d++) square += r[d] * r[d];
+    return sqrt(square) / pia_refine_allowed(fit, row);
+}
+
+double pia_refine_worst(const pia_fit *fit, pia_index begin, pia_index end)
+{
+    double worst = 0;
+    for (pia_index row = begin; row < end; row++) worst = fmax(worst, row_ratio(fit, row));
+    return worst;
+}
+
+/* Parts that a span is to be split into: the error of a degree p spline falls with the (p + 1)st power of its spans. */
+static int parts_of(const pia_fit *fit, double ratio)
+{
+    int parts = (int)ceil(pow(ratio, 1.0 / (fit->degree[0] + 1)) - 1e-9);
+    return parts < 2 ? 2 : parts > MOST_PARTS ? MOST_PARTS : parts;
+}
+
+/* New knots for the spans that deviate too much, put between data so that every part keeps rows. Returns how many were added;
+ * out [count + rows] holds old and new knots of the domain, sorted. */
+static pia_index split_spans(const pia_fit *fit, double *out, pia_index *count)
+{
+    const pia_collocation *c = &fit->line[0];
+    const double *t = fit->parameter[0];
+    pia_index added = 0, n = 0;
+    int p = fit->degree[0];
+    for (pia_index s = 0; s < c->full - p; s++) {
+        pia_index begin = c->begin[s], rows = c->begin[s + 1] - begin;
+        if (s > 0) out[n++] = fit->knots[0][p + s];
+        double ratio = rows >= 2 ? pia_refine_worst(fit, begin, begin + rows) : 0;
+        if (!(ratio > 1)) continue;
+        int parts = parts_of(fit, ratio);
+        if (parts > rows) parts = (int)rows;
+        double last = fit->knots[0][p + s];
+        for (int k = 1; k < parts; k++) {
+            pia_index at = begin + rows * k / parts;
+            double knot = t[at - 1] + (t[at] - t[at - 1]) / 2;
+            if (!(knot > last) || !(knot < fit->knots[0][p + s + 1])) continue;
+            out[n++] = last = knot;
+            added++;
+        }
+    }
+    *count = n;
+    return added;
+}
+
+/* Knot vector from the knots strictly inside the domain: clamped, or one period that starts at the domain's first knot. */
+static pia_status install_inside(pia_fit *fit, const double *inside, pia_index count)
+{
+    int p = fit->degree[0];
+    double low = fit->knots[0][p], high = fit->knots[0][fit->full[0]];
+    pia_index control = fit->closed[0] ? count + 1 : count + p + 1;
+    double *knots = pia_take(fit->context, control + p + 1, sizeof *knots);
+    if (knots == NULL) return PIA_E_MEMORY;
+    if (fit->closed[0]) {
+        /* One period, starting p knots before the domain. */
+        for (pia_index i = 0; i < control; i++) {
+            pia_index k = i - p, periods = 0;
+            while (k < 0) {
+                k += control;
+                periods--;
+            }
+            knots[i] = (k == 0 ? low : inside[k - 1]) + (double)periods;
+        }
+    } else {
+        for (int i = 0; i <= p; i++) {
+            knots[i] = low;
+            knots[control + i] = high;
+        }
+        memcpy(knots + p + 1, inside, (size_t)count * sizeof *knots);
+    }
+    pia_status status = pia_refine_install(fit, knots, control);
+    pia_give(fit->context, knots);
+    return status;
+}
+
+pia_status pia_refine_grow(pia_fit *fit, int *grown)
+{
+    pia_index count;
+    double *inside = pia_take(fit->context, fit->full[0] + fit->rows, sizeof *inside);
+    if (inside == NULL) return PIA_E_MEMORY;
+    pia_index added = split_spans(fit, inside, &count);
+    *grown = added > 0 && (fit->closed[0] ? count + 1 : count + fit->degree[0] + 1) <= fit->rows;
+    pia_status status = *grown ? install_inside(fit, inside, count) : PIA_OK;
+    pia_give(fit->context, inside);
+    return status == PIA_OK && *grown ? pia_refine_solve(fit) : status;
+}
+
+/* The parameters as placements take them: those of a closed curve in [0, 1), rising. */
+static void unit_parameters(const pia_fit *fit, double *t)
+{
+    pia_index m = fit->rows, by = 0;
+    memcpy(t, fit->parameter[0], (size_t)m * sizeof *t);
+    if (!fit->closed[0]) return;
+    double base = floor(t[0]);
+    while (by < m && fit->parameter[0][by] < base + 1) by++;
+    for (pia_index i = 0; i < m; i++) {
+        pia_index from = (by + i) % m;
+        t[i] = fit->parameter[0][from] - base - (from >= by ? 1 : 0);
+    }
+}
+
+pia_status pia_refine_interpolate(pia_fit *fit, int *possible)
+{
+    *possible = fit->rows > 2 * fit->degree[0] + 2;
+    for (pia_index i = 1; i < fit->rows; i++) *possible &= fit->parameter[0][i] > fit->parameter[0][i - 1];
+    if (!*possible) return PIA_OK;
+    pia_index count = fit->rows + 2 * fit->degree[0] + 1;
+    double *knots = pia_take(fit->context, count, sizeof *knots), *t = pia_take(fit->context, fit->rows, sizeof *t);
+    pia_status status = knots != NULL && t != NULL ? PIA_OK : PIA_E_MEMORY;
+    if (status == PIA_OK) {
+        unit_parameters(fit, t);
+        pia_place_problem problem = {fit->degree[0], fit->closed[0], fit->rows, t, fit->rows};
+        status = pia_place_find("average")->place(fit->context, &problem, knots);
+    }
+    if (status == PIA_OK) status = pia_refine_install(fit, knots, fit->rows);
+    if (status == PIA_OK) status = pia_refine_solve(fit);
+    pia_give(fit->context, knots);
+    pia_give(fit->context, t);
+    return status;
+}

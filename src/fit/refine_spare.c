@@ -1,0 +1,264 @@
+/* Sparing: knots are taken away, the cheapest first, each trial fitting a window anew towards the smallest largest deviation; then
+ * pairs of knots are merged into one. A long curve is cut into segments that are thinned out side by side, the control points at the
+ * cuts staying where they are; the next pass cuts elsewhere. The cuts depend on the number of control points alone. */
+#include "draft.h"
+#include "kernel.h"
+#include "refine.h"
+#include "window.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { REACH = 4, LAWSON_ROUNDS = 12, MAX_SWEEPS = 40, MAX_PASSES = 12, SEGMENT = 96, BATCH = 16 };
+
+typedef struct candidate {
+    double cost, knot;
+} candidate;
+
+static int compare_costs(const void *a, const void *b)
+{
+    const candidate *p = a, *q = b;
+    if (p->cost != q->cost) return p->cost < q->cost ? -1 : 1;
+    return (p->knot > q->knot) - (p->knot < q->knot);
+}
+
+/* The highest derivative on a span, from divided differences of its control points. */
+static void highest_derivative(const pia_draft *draft, pia_index span, double *out)
+{
+    int p = draft->degree, dim = draft->dim;
+    double difference[(PIA_MAX_DEGREE + 1) * PIA_MAX_DIM];
+    pia_index base = span - p;
+    for (int i = 0; i <= p; i++) {
+        pia_index at = draft->cyclic ? ((base + i) % draft->count + draft->count) % draft->count : base + i;
+        memcpy(difference + i * dim, draft->control + at * dim, (size_t)dim * sizeof(double));
+    }
+    for (int order = 1; order <= p; order++)
+        for (int i = p; i >= order; i--) {
+            double width = pia_draft_knot(draft, base + i + p - order + 1) - pia_draft_knot(draft, base + i);
+            for (int d = 0; d < dim; d++) {
+                double *to = &difference[i * dim + d];
+                *to = width > 0 ? (p - order + 1) * (*to - difference[(i - 1) * dim + d]) / width : 0;
+            }
+        }
+    memcpy(out, difference + p * dim, (size_t)dim * sizeof(double));
+}
+
+/* How little a knot does: the jump of the highest derivative there, as the distance that the curve would move over the spans beside. */
+static double knot_cost(const pia_draft *draft, pia_index j)
+{
+    double before[PIA_MAX_DIM], after[PIA_MAX_DIM], square = 0;
+    double left = pia_draft_knot(draft, j) - pia_draft_knot(draft, j - 1),
+           right = pia_draft_knot(draft, j + 1) - pia_draft_knot(draft, j);
+    highest_derivative(draft, j - 1, before);
+    highest_derivative(draft, j, after);
+    for (int d = 0; d < draft->dim; d++) square += (after[d] - before[d]) * (after[d] - before[d]);
+    return left + right > 0 ? sqrt(square) * pow(left * right / (left + right), draft->degree) : 0;
+}
+
+/* Tries to do with one knot instead of two. */
+static int merge_knots(pia_draft *draft, pia_index j)
+{
+    static const double share[] = {0.5, 0.25, 0.75};
+    pia_index first, end;
+    pia_draft_inside(draft, &first, &end);
+    if (j + 1 >= end && !draft->cyclic) return 0;
+    double here = pia_draft_knot(draft, j), next = pia_draft_knot(draft, j + 1);
+    for (size_t k = 0; k < sizeof share / sizeof *share; k++) {
+        double knot = here + share[k] * (next - here);
+        if (pia_draft_replace(draft, j, 2, &knot, 1, REACH, LAWSON_ROUNDS)) return 1;
+    }
+    return 0;
+}
+
+/* One sweep over all inside knots, the cheapest first. order has room for all knots. Returns how many knots went. */
+static pia_index sweep(pia_draft *draft, int merge, candidate *order)
+{
+    pia_index first, end, taken = 0;
+    pia_draft_inside(draft, &first, &end);
+    unsigned char mark = merge ? PIA_DRAFT_MERGED : PIA_DRAFT_SPARED;
+    pia_index count = 0;
+    for (pia_index j = first; j < end; j++)
+        if ((draft->mark[j] & (mark | PIA_DRAFT_KEPT)) == 0)
+            order[count++] = (candidate){knot_cost(draft, j), pia_draft_knot(draft, j)};
+    qsort(order, (size_t)count, sizeof *order, compare_costs);
+    for (pia_index k = 0; k < count; k++) {
+        pia_index j = pia_draft_find(draft, order[k].knot);
+        if (j < 0) continue;
+        draft->mark[j] |= mark;
+        taken += merge ? merge_knots(draft, j) : pia_draft_replace(draft, j, 1, NULL, 0, REACH, LAWSON_ROUNDS);
+    }
+    return taken;
+}
+
+/* ---- segments ---- */
+
+/* The whole curve, and a pass over it in segments that begin at control points cut[0], cut[1], ... */
+typedef struct pass {
+    pia_draft_data data;
+    int degree, dim, closed;
+    pia_index count;           /* control points */
+    double *knots;             /* open: [count + degree + 1]; closed: one period [count] */
+    double *control;           /* [count x dim] */
+    unsigned char *mark;       /* as knots */
+    pia_index segments, batch; /* segments of this pass; the first of those at work */
+    pia_index offset;          /* closed: control point at which the first segment begins */
+    pia_draft *draft;          /* [segments] */
+    candidate *order;          /* [count + segments (degree + 1)] */
+    double *work;              /* [BATCH x room] */
+    pia_index room;
+} pass;
+
+static int is_cyclic(const pass *s)
+{
+    return s->closed && s->count <= PIA_WINDOW_SHORT;
+}
+
+/* Open curves: every second pass is shifted by half a segment, which makes one more. */
+static pia_index cut(const pass *s, pia_index segment, int shifted)
+{
+    if (segment == 0) return 0;
+    if (segment == s->segments) return s->count;
+    pia_index whole = shifted && !s->closed ? s->segments - 1 : s->segments;
+    return s->count * (2 * segment - (whole < s->segments)) / (2 * whole);
+}
+
+static double knot_of(const pass *s, pia_index i)
+{
+    if (!s->closed) return s->knots[i];
+    pia_index n = s->count, period = i >= 0 ? i / n : -((n - 1 - i) / n);
+    return s->knots[i - period * n] + (double)period;
+}
+
+/* Copies of the segments, one behind the other in store: knots, control points, marks. */
+static void cut_out(pass *s, int shifted, double *store, unsigned char *marks)
+{
+    int p = s->degree, dim = s->dim;
+    for (pia_index k = 0; k < s->segments; k++) {
+        pia_index begin = cut(s, k, shifted), count = cut(s, k + 1, shifted) - begin, knots = count + (is_cyclic(s) ? 0 : p + 1);
+        pia_draft *d = &s->draft[k];
+        *d = (pia_draft){.data = &s->data, .degree = p, .dim = dim, .cyclic = is_cyclic(s), .count = count};
+        d->held[0] = s->closed || k > 0;
+        d->held[1] = s->closed || k + 1 < s->segments;
+        d->knots = store;
+        d->control = store + knots;
+        d->mark = marks;
+        store += knots + count * dim;
+        marks += knots;
+        for (pia_index i = 0; i < knots; i++) d->knots[i] = knot_of(s, s->offset + begin + i);
+        for (pia_index i = 0; i < knots; i++) d->mark[i] = s->mark[s->closed ? (s->offset + begin + i) % s->count : begin + i];
+        for (pia_index i = 0; i < count; i++) {
+            pia_index at = s->closed ? (s->offset + begin + i) % s->count : begin + i;
+            memcpy(d->control + i * dim, s->control + at * dim, (size_t)dim * sizeof(double));
+        }
+    }
+}
+
+/* The curve from its segments. Returns how many knots went. */
+static pia_index put_back(pass *s)
+{
+    pia_index before = s->count, n = 0;
+    int p = s->degree;
+    for (pia_index k = 0; k < s->segments; k++) {
+        const pia_draft *d = &s->draft[k];
+        pia_index knots = d->count + (k + 1 == s->segments && !s->closed ? p + 1 : 0);
+        memcpy(s->knots + n, d->knots, (size_t)knots * sizeof(double));
+        memcpy(s->mark + n, d->mark, (size_t)knots);
+        memcpy(s->control + n * s->dim, d->control, (size_t)(d->count * s->dim) * sizeof(double));
+        n += d->count;
+    }
+    s->count = n;
+    double base = s->closed ? floor(s->knots[0]) : 0;
+    for (pia_index i = 0; i < n && base != 0; i++) s->knots[i] -= base;
+    return before - n;
+}
+
+static void thin_out(void *work, pia_index chunk)
+{
+    pass *s = work;
+    pia_index segment = s->batch + chunk;
+    pia_draft *draft = &s->draft[segment];
+    candidate *order = s->order + (draft->mark - s->draft[0].mark);
+    draft->work = s->work + chunk * s->room;
+    pia_index taken = 1;
+    for (int k = 0; k < MAX_SWEEPS && taken > 0; k++) {
+        taken = sweep(draft, 0, order);
+        if (taken == 0) taken = sweep(draft, 1, order);
+    }
+}
+
+/* One pass; *spared knots went. */
+static pia_status run_pass(pia_fit *fit, pass *s, int shifted, pia_index *spared)
+{
+    pia_context *context = fit->context;
+    pia_index whole = s->count / SEGMENT;
+    s->segments = whole > 1 ? whole + (shifted && !s->closed) : 1;
+    s->offset = s->closed && shifted && !is_cyclic(s) ? s->count / (2 * s->segments) : 0;
+    pia_index knots = s->count + s->segments * (s->degree + 1), values = knots + s->count * s->dim;
+    s->draft = pia_take(context, s->segments, sizeof *s->draft);
+    s->order = pia_take(context, knots, sizeof *s->order);
+    s->work = pia_take(context, BATCH * s->room, sizeof *s->work);
+    double *store = pia_take(context, values, sizeof *store);
+    unsigned char *marks = pia_take(context, knots, 1);
+    *spared = 0;
+    pia_status status =
+        s->draft != NULL && s->order != NULL && s->work != NULL && store != NULL && marks != NULL ? PIA_OK : PIA_E_MEMORY;
+    if (status == PIA_OK) {
+        cut_out(s, shifted, store, marks);
+        for (s->batch = 0; s->batch < s->segments && !pia_refine_stopped(fit); s->batch += BATCH)
+            pia_for_each(context, s->segments - s->batch < BATCH ? s->segments - s->batch : BATCH, thin_out, s);
+        *spared = put_back(s);
+    }
+    pia_give(context, s->draft);
+    pia_give(context, s->order);
+    pia_give(context, s->work);
+    pia_give(context, store);
+    pia_give(context, marks);
+    return status;
+}
+
+/* A pass works on copies; the fit takes them over when all is done. */
+static pia_status open_pass(pia_fit *fit, pass *s)
+{
+    pia_context *context = fit->context;
+    pia_index count = fit->op->cols, knots = count + fit->degree[0] + 1;
+    *s = (pass){.degree = fit->degree[0], .dim = fit->dim, .closed = fit->closed[0], .count = count};
+    s->data = (pia_draft_data){.parameters = fit->parameter[0],
+                               .points = fit->points,
+                               .origin = fit->origin,
+                               .inverse_tolerance = fit->inverse_tolerance,
+                               .inverse_one = 1 / fit->options.tolerance,
+                               .rows = fit->rows,
+                               .periodic = fit->closed[0]};
+    s->room = pia_draft_room(s->degree, s->dim, REACH);
+    s->knots = pia_take(context, knots, sizeof(double));
+    s->control = pia_take(context, count * s->dim, sizeof(double));
+    s->mark = pia_take_zero(context, knots, 1);
+    if (s->knots == NULL || s->control == NULL || s->mark == NULL) return PIA_E_MEMORY;
+    memcpy(s->knots, fit->knots[0], (size_t)knots * sizeof(double));
+    memcpy(s->control, fit->iterate.points, (size_t)(count * s->dim) * sizeof(double));
+    return PIA_OK;
+}
+
+pia_status pia_refine_spare(pia_fit *fit, pia_index *spared)
+{
+    pass s;
+    pia_index taken = 1, idle = 0;
+    *spared = 0;
+    pia_status status = open_pass(fit, &s);
+    for (int k = 0; k < MAX_PASSES && idle < 2 && status == PIA_OK && !pia_refine_stopped(fit); k++) {
+        status = run_pass(fit, &s, k % 2, &taken);
+        *spared += taken;
+        idle = taken > 0 ? 0 : s.segments == 1 && !s.closed ? 2 : idle + 1;
+        fit->round++;
+    }
+    if (status == PIA_OK && *spared > 0) {
+        status = pia_refine_install(fit, s.knots, s.count);
+        if (status == PIA_OK) memcpy(fit->iterate.points, s.control, (size_t)(s.count * s.dim) * sizeof(double));
+        if (status == PIA_OK) pia_iterate_measure(&fit->iterate);
+    }
+    pia_give(fit->context, s.knots);
+    pia_give(fit->context, s.control);
+    pia_give(fit->context, s.mark);
+    return status;
+}

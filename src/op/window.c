@@ -1,0 +1,328 @@
+/* Few rows decide a smallest largest deviation: as many as there are unknowns, and one more. So the reweighted fits see a few rows a
+ * span, and a pass over all rows, at the speed of one polynomial a row, only says which ones were missing. */
+#include "window.h"
+
+#include "band.h"
+#include "basis.h"
+#include "dense.h"
+
+#include <math.h>
+#include <string.h>
+
+/* SAMPLE: rows of a span to begin with. GROUPS: parts of a span of which each may send its worst row. SPARSE: rows a span up to which
+ * all rows are taken at once. POLYNOMIAL: degree up to which Taylor polynomials around the middle of a span keep their digits. */
+enum { SAMPLE = 8, GROUPS = 4, EXCHANGES = 6, SPARSE = 16, POLYNOMIAL = 7, BLOCK = 64 };
+
+/* What counts as kept, a little below 1: control points are rounded when they are put back. */
+static const double KEPT = 1 - 1e-9;
+
+/* The rows that take part, as arrays in the draft's work space. */
+typedef struct rows {
+    pia_index count, room;
+    double *value;   /* [room x (degree + 1)] basis values */
+    double *target;  /* [room x dim] */
+    double *inverse; /* [room] inverse tolerance */
+    double *weight;  /* [room] Lawson's */
+    int *first;      /* [room] index of the first control point */
+} rows;
+
+pia_index pia_draft_room(int degree, int dim, int reach)
+{
+    pia_index spans = 2 * reach + 2 * degree + 4 + PIA_WINDOW_SHORT;
+    return spans * (SAMPLE + GROUPS * EXCHANGES) * (degree + 1 + dim + 3);
+}
+
+static rows rows_in(const pia_draft *draft, pia_index room)
+{
+    rows r = {.room = room, .value = draft->work};
+    r.target = r.value + room * (draft->degree + 1);
+    r.inverse = r.target + room * draft->dim;
+    r.weight = r.inverse + room;
+    r.first = (int *)(r.weight + room);
+    return r;
+}
+
+static void add_row(const pia_draft *draft, const pia_window *w, int span, pia_index row, double weight, rows *r)
+{
+    int p = draft->degree, dim = draft->dim;
+    pia_index at, k = r->count++;
+    const pia_draft_data *data = draft->data;
+    double t = pia_draft_row(data, row, &at);
+    pia_basis_values(w->knots, p, span, t, r->value + k * (p + 1));
+    r->first[k] = span - p;
+    r->inverse[k] = data->inverse_tolerance != NULL ? data->inverse_tolerance[at] : data->inverse_one;
+    r->weight[k] = weight;
+    for (int d = 0; d < dim; d++) r->target[k * dim + d] = data->points[at * dim + d] - data->origin[d];
+}
+
+/* begin[s - degree] .. begin[s - degree + 1]: rows of span s, cut to the rows of the window. */
+static void find_spans(const pia_draft *draft, const pia_window *w, pia_index *begin)
+{
+    int p = draft->degree, spans = w->count - p;
+    pia_index end = w->row + w->rows;
+    begin[0] = w->row;
+    for (int s = 1; s < spans; s++) {
+        pia_index row = pia_draft_lower_row(draft->data, w->knots[p + s]);
+        begin[s] = row < begin[s - 1] ? begin[s - 1] : row > end ? end : row;
+    }
+    begin[spans] = end;
+    /* The end of the domain belongs to the last span that is not empty. */
+    for (int s = spans - 1; s > 0 && !(w->knots[p + s] < w->knots[p + s + 1]); s--) begin[s] = end;
+}
+
+static void sample_rows(const pia_draft *draft, const pia_window *w, const pia_index *begin, int all, rows *r)
+{
+    int p = draft->degree;
+    for (int s = 0; s < w->count - p; s++) {
+        pia_index count = begin[s + 1] - begin[s], taken = all || count < SAMPLE ? count : SAMPLE;
+        for (pia_index k = 0; k < taken; k++) {
+            pia_index offset = taken == count ? k : k * (count - 1) / (taken - 1);
+            add_row(draft, w, p + s, begin[s] + offset, 1, r);
+        }
+    }
+}
+
+/* ---- the reweighted fit ---- */
+
+static inline __attribute__((always_inline)) void difference_of(const rows *r, pia_index k, const double *points, int p, int dim,
+                                                                double *difference)
+{
+    const double *value = r->value + k * (p + 1), *point = points + (pia_index)r->first[k] * dim;
+    for (int d = 0; d < dim; d++) {
+        double sum = 0;
+        for (int i = 0; i <= p; i++) sum += value[i] * point[i * dim + d];
+        difference[d] = r->target[k * dim + d] - sum;
+    }
+}
+
+/* Normal equations of a piece: sums over all control points of the window, moving or not, in bands; those that stay are cut off. */
+static inline __attribute__((always_inline)) void sum_band(const pia_window *w, const rows *r, int p, int dim, double *h, double *b)
+{
+    for (pia_index k = 0; k < r->count; k++) {
+        const double *value = r->value + k * (p + 1);
+        double difference[PIA_MAX_DIM], weight = r->weight[k] * r->inverse[k] * r->inverse[k];
+        double *h_row = h + (pia_index)r->first[k] * (p + 1), *b_row = b + (pia_index)r->first[k] * dim;
+        difference_of(r, k, w->point, p, dim, difference);
+        for (int i = 0; i <= p; i++) {
+            double factor = weight * value[i];
+            for (int j = i; j <= p; j++) h_row[i * (p + 1) + j - i] += factor * value[j];
+            for (int d = 0; d < dim; d++) b_row[i * dim + d] += factor * difference[d];
+        }
+    }
+}
+
+/* Squared ratios of all rows, and what Lawson's weights make of them. */
+static inline __attribute__((always_inline)) double judge(const pia_window *w, rows *r, int p, int dim, double *bound)
+{
+    double worst = 0, weighted = 0, total = 0, moved = 0;
+    for (pia_index k = 0; k < r->count; k++) {
+        double difference[PIA_MAX_DIM], square = 0;
+        difference_of(r, k, w->point, p, dim, difference);
+        for (int d = 0; d < dim; d++) square += difference[d] * difference[d];
+        double ratio = sqrt(square) * r->inverse[k];
+        weighted += r->weight[k] * ratio * ratio;
+        total += r->weight[k];
+        if (!(ratio <= worst)) worst = ratio;
+        r->weight[k] *= ratio + 1e-3;
+        moved += r->weight[k];
+    }
+    *bound = total > 0 ? sqrt(weighted / total) : 0;
+    double factor = moved > 0 ? (double)r->count / moved : 1;
+    for (pia_index k = 0; k < r->count; k++) r->weight[k] *= factor;
+    return worst;
+}
+
+/* The cubic in up to three dimensions, by counts that the compiler knows. */
+#define PIA_UNROLL(result, call, p, dim, ...)                                                                                          \
+    do {                                                                                                                               \
+        if ((p) == 3 && (dim) == 3)                                                                                                    \
+            result call(w, r, 3, 3, __VA_ARGS__);                                                                                      \
+        else if ((p) == 3 && (dim) == 2)                                                                                               \
+            result call(w, r, 3, 2, __VA_ARGS__);                                                                                      \
+        else if ((p) == 3 && (dim) == 1)                                                                                               \
+            result call(w, r, 3, 1, __VA_ARGS__);                                                                                      \
+        else                                                                                                                           \
+            result call(w, r, p, dim, __VA_ARGS__);                                                                                    \
+    } while (0)
+
+static void correct_piece(pia_window *w, const rows *r, int p, int dim)
+{
+    double h[PIA_WINDOW_CONTROL * (PIA_MAX_DEGREE + 1)], b[PIA_WINDOW_CONTROL * PIA_MAX_DIM];
+    memset(h, 0, (size_t)(w->count * (p + 1)) * sizeof *h);
+    memset(b, 0, (size_t)(w->count * dim) * sizeof *b);
+    PIA_UNROLL(, sum_band, p, dim, h, b);
+    double *cut = h + w->first * (p + 1), *right = b + w->first * dim;
+    pia_band_ldl_factor(cut, w->free, p, 1e-13, NULL, 0);
+    pia_band_ldl_solve(cut, w->free, p, right, dim);
+    for (int i = 0; i < w->free * dim; i++) w->point[w->first * dim + i] += right[i];
+}
+
+static void correct_cyclic(pia_window *w, const rows *r, int p, int dim)
+{
+    double h[PIA_WINDOW_FREE * PIA_WINDOW_FREE], b[PIA_WINDOW_FREE * PIA_MAX_DIM], scratch[PIA_WINDOW_FREE * PIA_MAX_DIM];
+    pia_index order[PIA_WINDOW_FREE];
+    int n = w->free;
+    memset(h, 0, (size_t)(n * n) * sizeof *h);
+    memset(b, 0, (size_t)(n * dim) * sizeof *b);
+    for (pia_index k = 0; k < r->count; k++) {
+        const double *value = r->value + k * (p + 1);
+        int column = r->first[k];
+        double difference[PIA_MAX_DIM], weight = r->weight[k] * r->inverse[k] * r->inverse[k];
+        difference_of(r, k, w->point, p, dim, difference);
+        for (int i = 0; i <= p; i++) {
+            double factor = weight * value[i];
+            for (int j = 0; j <= p; j++) h[(column + i) % n * n + (column + j) % n] += factor * value[j];
+            for (int d = 0; d < dim; d++) b[(column + i) % n * dim + d] += factor * difference[d];
+        }
+    }
+    pia_index rank = pia_dense_cholesky(h, n, 1e-14, order);
+    pia_dense_cholesky_solve(h, n, rank, order, b, dim, scratch);
+    for (int i = 0; i < w->count; i++)
+        for (int d = 0; d < dim; d++) w->point[i * dim + d] += b[i % n * dim + d];
+}
+
+/* Rounds until the rows keep their tolerance, or the weighted root mean square proves that they cannot: no choice of the unknowns has
+ * a smaller largest ratio. */
+static double fit_rows(pia_window *w, rows *r, int p, int dim, int cyclic, int rounds)
+{
+    double ratio = INFINITY;
+    for (int round = 0; round <= rounds; round++) {
+        double bound;
+        if (cyclic)
+            correct_cyclic(w, r, p, dim);
+        else
+            correct_piece(w, r, p, dim);
+        PIA_UNROLL(ratio =, judge, p, dim, &bound);
+        if (ratio <= KEPT || bound > 1 || !isfinite(ratio)) break;
+    }
+    return ratio;
+}
+
+/* ---- the pass over all rows ---- */
+
+/* The curve on one span as Taylor polynomial in x = (t - middle) * scale, x in [-1, 1]. */
+typedef struct piece {
+    double middle, scale, coefficient[(POLYNOMIAL + 1) * PIA_MAX_DIM];
+} piece;
+
+static piece piece_of(const pia_window *w, int span, int p, int dim)
+{
+    double half = (w->knots[span + 1] - w->knots[span]) / 2, factor = 1;
+    piece c = {.middle = w->knots[span] + half, .scale = 1 / half};
+    double basis[(POLYNOMIAL + 1) * (POLYNOMIAL + 1)];
+    pia_basis_derivatives(w->knots, p, span, c.middle, p, basis);
+    for (int order = 0; order <= p; order++) {
+        for (int d = 0; d < dim; d++) {
+            double sum = 0;
+            for (int k = 0; k <= p; k++) sum += basis[order * (p + 1) + k] * w->point[(span - p + k) * dim + d];
+            c.coefficient[order * dim + d] = sum * factor;
+        }
+        factor *= half / (order + 1);
+    }
+    return c;
+}
+
+static inline __attribute__((always_inline)) void squares_of(const piece *c, const double *t, double shift, const double *q,
+                                                             const double *origin, int count, int p, int dim, double *square)
+{
+    double middle = c->middle - shift, last[PIA_MAX_DIM];
+    for (int d = 0; d < dim; d++) last[d] = c->coefficient[d] + origin[d];
+    for (int k = 0; k < count; k++) {
+        double x = (t[k] - middle) * c->scale, sum = 0;
+        for (int d = 0; d < dim; d++) {
+            double value = c->coefficient[p * dim + d];
+            for (int order = p - 1; order > 0; order--) value = value * x + c->coefficient[order * dim + d];
+            value = value * x + last[d] - q[k * dim + d];
+            sum += value * value;
+        }
+        square[k] = sum;
+    }
+}
+
+/* The same for degrees whose powers lose digits. */
+static void squares_plain(const pia_window *w, const double *t, double shift, const double *q, const double *origin, int span,
+                          int count, int p, int dim, double *square)
+{
+    double basis[PIA_MAX_DEGREE + 1];
+    for (int k = 0; k < count; k++) {
+        pia_basis_values(w->knots, p, span, t[k] + shift, basis);
+        square[k] = 0;
+        for (int d = 0; d < dim; d++) {
+            double difference = q[k * dim + d] - origin[d];
+            for (int i = 0; i <= p; i++) difference -= basis[i] * w->point[(span - p + i) * dim + d];
+            square[k] += difference * difference;
+        }
+    }
+}
+
+/* The worst of the rows from .. to - 1 of one span; returns its squared ratio. */
+static double worst_of(const pia_draft *draft, const pia_window *w, const piece *c, int span, pia_index from, pia_index to,
+                       pia_index *row)
+{
+    const pia_draft_data *data = draft->data;
+    int p = draft->degree, dim = draft->dim;
+    double square[BLOCK], worst = -1;
+    for (pia_index k = from; k < to;) {
+        pia_index at;
+        double shift = pia_draft_row(data, k, &at);
+        shift -= data->parameters[at];
+        pia_index left = to - k < data->rows - at ? to - k : data->rows - at;
+        int count = left < BLOCK ? (int)left : BLOCK;
+        const double *t = data->parameters + at, *q = data->points + at * dim;
+        if (p == 3 && dim == 2)
+            squares_of(c, t, shift, q, data->origin, count, 3, 2, square);
+        else if (p == 3 && dim == 3)
+            squares_of(c, t, shift, q, data->origin, count, 3, 3, square);
+        else if (p <= POLYNOMIAL)
+            squares_of(c, t, shift, q, data->origin, count, p, dim, square);
+        else
+            squares_plain(w, t, shift, q, data->origin, span, count, p, dim, square);
+        for (int i = 0; i < count; i++) {
+            double inverse = data->inverse_tolerance != NULL ? data->inverse_tolerance[at + i] : data->inverse_one;
+            double ratio = square[i] * inverse * inverse;
+            if (ratio <= worst) continue;
+            worst = ratio;
+            *row = k + i;
+        }
+        k += count;
+    }
+    return worst;
+}
+
+/* Adds the worst rows of all spans that deviate too much. Returns the largest ratio. */
+static double exchange(const pia_draft *draft, const pia_window *w, const pia_index *begin, rows *r)
+{
+    int p = draft->degree;
+    double worst = 0;
+    for (int s = 0; s < w->count - p; s++) {
+        pia_index count = begin[s + 1] - begin[s];
+        if (count <= SAMPLE) continue;
+        piece c = {0};
+        if (p <= POLYNOMIAL) c = piece_of(w, p + s, p, draft->dim);
+        for (int group = 0; group < GROUPS; group++) {
+            pia_index row = 0;
+            double square =
+                worst_of(draft, w, &c, p + s, begin[s] + count * group / GROUPS, begin[s] + count * (group + 1) / GROUPS, &row);
+            double ratio = sqrt(fmax(square, 0));
+            if (!(ratio <= worst)) worst = ratio;
+            if (ratio > KEPT && r->count < r->room) add_row(draft, w, p + s, row, ratio, r);
+        }
+    }
+    return worst;
+}
+
+double pia_window_fit(pia_draft *draft, pia_window *w, int rounds)
+{
+    int p = draft->degree, spans = w->count - p, all = w->rows <= (pia_index)spans * SPARSE;
+    pia_index begin[PIA_WINDOW_CONTROL + 1];
+    rows r = rows_in(draft, (pia_index)spans * (SAMPLE + GROUPS * EXCHANGES));
+    find_spans(draft, w, begin);
+    sample_rows(draft, w, begin, all, &r);
+    for (int k = 0; k < EXCHANGES; k++) {
+        double ratio = fit_rows(w, &r, p, draft->dim, draft->cyclic, rounds);
+        if (!(ratio <= 1) || all) return ratio;
+        ratio = exchange(draft, w, begin, &r);
+        if (ratio <= KEPT) return ratio;
+    }
+    return INFINITY;
+}

@@ -1,0 +1,214 @@
+/* Fits to a tolerance: what the report says is true, whatever the curve, degree, dimension and number of threads. */
+#include <stdlib.h>
+
+#include "check.h"
+
+typedef struct problem {
+    pia_data data;
+    pia_fit_options options;
+    double *points;
+} problem;
+
+static double random_number(uint64_t *seed)
+{
+    *seed = *seed * 6364136223846793005u + 1442695040888963407u;
+    return (double)(*seed >> 11) * 0x1p-53;
+}
+
+/* A wavy line, closed or not, with a little noise, far from the origin. */
+static problem wavy(int degree, int closed, int dim, pia_index count, double tolerance)
+{
+    problem p;
+    uint64_t seed = 7;
+    pia_data_init(&p.data);
+    pia_fit_options_init(&p.options);
+    p.points = malloc((size_t)(count * dim) * sizeof *p.points);
+    for (pia_index i = 0; i < count; i++) {
+        double u = 6.283185307179586 * (double)i / (double)(closed ? count : count - 1);
+        for (int d = 0; d < dim; d++)
+            p.points[i * dim + d] = 1000 + 10 * cos(u + 1.6 * d) + 2 * sin((3 + d) * u) + 0.01 * random_number(&seed);
+    }
+    p.data.points = p.points;
+    p.data.count[0] = count;
+    p.data.dim = dim;
+    p.options.degree[0] = degree;
+    p.options.closed[0] = closed;
+    p.options.tolerance = tolerance;
+    return p;
+}
+
+/* The largest deviation over what is allowed, by evaluating the model at the parameters that the fit tells. */
+static double largest_ratio(pia_context *context, const problem *p, pia_fit *fit)
+{
+    const double *parameters;
+    const pia_index *row;
+    pia_index count;
+    pia_model *model;
+    int dim = p->data.dim;
+    assert_ok(context, pia_fit_model(fit, &model));
+    assert_ok(context, pia_fit_parameters(fit, &parameters, &count, &row));
+    double *value = malloc((size_t)(count * dim) * sizeof *value), worst = 0;
+    assert_ok(context, pia_model_eval(context, model, parameters, count, 0, value));
+    for (pia_index i = 0; i < count; i++) {
+        pia_index at = row != NULL ? row[i] : i;
+        double square = 0;
+        for (int d = 0; d < dim; d++) square += pow(value[i * dim + d] - p->points[at * dim + d], 2);
+        double allowed = p->data.tolerances != NULL ? p->data.tolerances[at] : p->options.tolerance;
+        worst = fmax(worst, sqrt(square) / allowed);
+    }
+    free(value);
+    pia_model_destroy(model);
+    return worst;
+}
+
+static void check_problem(pia_context *context, const problem *p, pia_index most)
+{
+    pia_fit *fit;
+    pia_report report = {.struct_size = sizeof report};
+    assert_ok(context, pia_fit_open(context, &p->data, &p->options, &fit));
+    assert_ok(context, pia_fit_run(fit, &report));
+    assert_string_equal(pia_stop_name(report.stop), "tolerance");
+    assert_int_equal(report.reached, 1);
+    assert_true(largest_ratio(context, p, fit) <= 1 + 1e-9);
+    if (report.control_count > most)
+        fail_msg("%lld control points, at most %lld expected", (long long)report.control_count, (long long)most);
+    pia_fit_close(fit);
+}
+
+static void a_fit_that_says_reached_keeps_the_tolerance(void **state)
+{
+    (void)state;
+    pia_context *context;
+    assert_ok(NULL, pia_context_create(NULL, &context));
+    for (int degree = 1; degree <= 7; degree++)
+        for (int closed = 0; closed < 2; closed++)
+            for (int dim = 1; dim <= 4; dim++) {
+                problem p = wavy(degree, closed, dim, 400, 0.05);
+                if (dim == 1) p.options.parametrization = "uniform";
+                check_problem(context, &p, degree == 1 ? 200 : 80);
+                free(p.points);
+            }
+    pia_context_destroy(context);
+}
+
+static void high_degrees_keep_the_tolerance(void **state)
+{
+    (void)state;
+    pia_context *context;
+    assert_ok(NULL, pia_context_create(NULL, &context));
+    for (int degree = 8; degree <= 25; degree += 17)
+        for (int closed = 0; closed < 2; closed++) {
+            problem p = wavy(degree, closed, 2, 2000, 0.1);
+            check_problem(context, &p, 120);
+            free(p.points);
+        }
+    pia_context_destroy(context);
+}
+
+static void tolerances_a_point_are_kept(void **state)
+{
+    (void)state;
+    pia_context *context;
+    assert_ok(NULL, pia_context_create(NULL, &context));
+    problem p = wavy(3, 0, 2, 500, 1);
+    double *tolerances = malloc(500 * sizeof *tolerances);
+    for (int i = 0; i < 500; i++) tolerances[i] = i < 250 ? 1 : 0.02;
+    p.data.tolerances = tolerances;
+    check_problem(context, &p, 60);
+    free(tolerances);
+    free(p.points);
+    pia_context_destroy(context);
+}
+
+static void the_number_of_threads_changes_no_bit(void **state)
+{
+    (void)state;
+    static const int threads[] = {1, 2, 5};
+    double *first = NULL;
+    pia_index count = 0;
+    for (size_t k = 0; k < sizeof threads / sizeof *threads; k++) {
+        pia_context *context;
+        pia_model *model;
+        pia_model_info info = {.struct_size = sizeof info};
+        assert_ok(NULL, pia_context_create(NULL, &context));
+        assert_ok(context, pia_context_set_threads(context, threads[k]));
+        problem p = wavy(3, 0, 3, 6000, 0.006); /* within the noise: hundreds of control points, several segments */
+        assert_ok(context, pia_fit_data(context, &p.data, &p.options, &model, NULL));
+        pia_model_get_info(model, &info);
+        double *points = malloc((size_t)(info.control[0] * 3) * sizeof *points);
+        pia_model_control(model, points, NULL);
+        assert_true(info.control[0] > 200);
+        if (first == NULL) {
+            first = points;
+            count = info.control[0];
+        } else {
+            assert_int_equal(info.control[0], count);
+            assert_memory_equal(points, first, (size_t)(count * 3) * sizeof *points);
+            free(points);
+        }
+        free(p.points);
+        pia_model_destroy(model);
+        pia_context_destroy(context);
+    }
+    free(first);
+}
+
+static void what_cannot_be_had_is_said(void **state)
+{
+    (void)state;
+    pia_context *context;
+    assert_ok(NULL, pia_context_create(NULL, &context));
+    problem p = wavy(3, 0, 2, 100, 1e-3);
+    double parameters[100];
+    for (int i = 0; i < 100; i++) parameters[i] = i / 2 / 49.5; /* two points at each parameter, 0.6 apart */
+    p.data.parameters = parameters;
+    pia_report report = {.struct_size = sizeof report};
+    pia_model *model;
+    assert_ok(context, pia_fit_data(context, &p.data, &p.options, &model, &report));
+    assert_int_equal(report.reached, 0);
+    assert_string_equal(pia_stop_name(report.stop), "no-knot-left");
+    assert_true(report.max_error > 1e-3);
+    pia_model_destroy(model);
+    free(p.points);
+    pia_context_destroy(context);
+}
+
+static int stop_at_once(void *user, const pia_report *so_far)
+{
+    (void)so_far;
+    ++*(int *)user;
+    return 1;
+}
+
+static void a_cancelled_fit_keeps_a_model(void **state)
+{
+    (void)state;
+    pia_context *context;
+    assert_ok(NULL, pia_context_create(NULL, &context));
+    int calls = 0;
+    problem p = wavy(3, 0, 2, 1000, 0.01);
+    p.options.progress = stop_at_once;
+    p.options.user = &calls;
+    pia_report report = {.struct_size = sizeof report};
+    pia_model *model;
+    assert_ok(context, pia_fit_data(context, &p.data, &p.options, &model, &report));
+    assert_string_equal(pia_stop_name(report.stop), "cancelled");
+    assert_int_equal(calls, 1);
+    assert_int_equal(report.reached, 0);
+    pia_model_destroy(model);
+    free(p.points);
+    pia_context_destroy(context);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(a_fit_that_says_reached_keeps_the_tolerance),
+        cmocka_unit_test(high_degrees_keep_the_tolerance),
+        cmocka_unit_test(tolerances_a_point_are_kept),
+        cmocka_unit_test(the_number_of_threads_changes_no_bit),
+        cmocka_unit_test(what_cannot_be_had_is_said),
+        cmocka_unit_test(a_cancelled_fit_keeps_a_model),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
