@@ -313,6 +313,65 @@ static void gaps_leave_every_method_bounded(void **state)
     pia_context_destroy(context);
 }
 
+/* Dini's surface of 81 x 81 points by 31 x 31 control points, picked from the data at the start: the counts that a study of 2026
+ * published for its stop rule, |g|^2 < 1e-6 |g_0|^2. */
+static pia_model *dini_start(pia_context *context, const double *points)
+{
+    const int degree[2] = {3, 3};
+    const pia_index control[2] = {31, 31};
+    double knots[35], start[31 * 31 * 3];
+    const double *both[2] = {knots, knots};
+    pia_model *model = NULL;
+    for (int i = 0; i < 35; i++) knots[i] = i < 4 ? 0 : i >= 31 ? 1 : (i - 3) / 28.0;
+    for (int i = 0; i < 31 * 31; i++) {
+        int row = (int)round(80.0 / 30 * (i / 31)), column = (int)round(80.0 / 30 * (i % 31));
+        memcpy(start + 3 * i, points + 3 * (row * 81 + column), 3 * sizeof *start);
+    }
+    assert_ok(context, pia_model_create(context, 2, degree, both, control, 3, start, NULL, &model));
+    return model;
+}
+
+static void published_counts_are_met_on_dinis_surface(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *method;
+        int count;
+    } published[] = {{"lspia-opt", 213}, {"mlspia", 82}, {"nmlspia", 30}, {"alspia", 37}, {"salspia", 14}};
+    pia_context *context = context_with(1);
+    problem p = problem_make(PIA_GRID, 3, 0, 3, 81, 31);
+    double parameters[162];
+    for (int i = 0; i < 162; i++) parameters[i] = i % 81 / 80.0;
+    for (int i = 0; i < 81 * 81; i++) {
+        double a = 4 * M_PI * (i / 81) / 80, b = 0.1 + (M_PI - 0.2) * (i % 81) / 80;
+        p.points[3 * i] = cos(a) * sin(b);
+        p.points[3 * i + 1] = sin(a) * sin(b);
+        p.points[3 * i + 2] = cos(b) + log(tan(b / 2)) + a;
+    }
+    pia_model *start = dini_start(context, p.points);
+    p.data.parameters = parameters;
+    p.options.start = start;
+    p.options.stop_gradient = p.options.stop_change = 0;
+    for (size_t k = 0; k < sizeof published / sizeof *published; k++) {
+        pia_fit *fit = NULL;
+        pia_report report = {.struct_size = sizeof report};
+        double first = 0, now = 0;
+        int count = 0;
+        p.options.method = published[k].method;
+        assert_ok(context, pia_fit_open(context, &p.data, &p.options, &fit));
+        for (; count < 300 && (count < 2 || now * now >= 1e-6 * first * first); count++) { /* a step tells the gradient it began with */
+            assert_ok(context, pia_fit_step(fit, 1, &report));
+            now = report.relative_gradient;
+            if (count == 0) first = now;
+        }
+        assert_int_equal(count - 1, published[k].count);
+        pia_fit_close(fit);
+    }
+    pia_model_destroy(start);
+    problem_release(&p);
+    pia_context_destroy(context);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -323,6 +382,7 @@ int main(void)
         cmocka_unit_test(iterates_are_the_same_with_and_without_a_normal_form),
         cmocka_unit_test(the_thread_count_changes_no_bit),
         cmocka_unit_test(gaps_leave_every_method_bounded),
+        cmocka_unit_test(published_counts_are_met_on_dinis_surface),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
