@@ -4,7 +4,8 @@
  *   fit_parameters.c  parameters of the rows                         fit_result.c   report, residuals, model
  *   fit_knots.c       knots and operators                            fit_edit.c     edits of a running fit
  *   fit_foot.c        parameters moved to foot points                fit_call.c     the one call
- *   fit_constrain.c   points and derivatives met exactly             refine*.c      knots for a tolerance */
+ *   fit_constrain.c   points and derivatives met exactly             fit_outcome.c  what is worth saying of the result
+ *   refine*.c         knots for a tolerance */
 #ifndef PIA_FIT_FIT_H
 #define PIA_FIT_FIT_H
 
@@ -50,8 +51,8 @@ struct pia_fit {
     const pia_placement *placement;             /* NULL: given */
     double *parameter[2];                       /* [count] a direction; scattered: u,v pairs in [0]; owned unless borrowed_parameters */
     int borrowed_parameters;
-    int parameters_moved;     /* they are foot points now */
-    double *knots[2]; /* [full + degree + 1] */
+    int parameters_moved; /* they are foot points now */
+    double *knots[2];     /* [full + degree + 1] */
     pia_index full[2];
     pia_map map[2];
     pia_index offset[2];
@@ -65,12 +66,12 @@ struct pia_fit {
     pia_index constraint_count, constraint_room;
     pia_solve solve;
     pia_values method_values, limiter_values;
-    pia_notes notes;
-    int refining;           /* knots are still to be found for a tolerance */
-    pia_index round;        /* rounds of growing, sparing, correcting */
-    double began;           /* of a refinement: when it would have begun if it had not been interrupted */
-    double *all_parameters; /* of a grid, u then v, once asked for; NULL before */
-    double seconds;         /* spent in opening */
+    pia_notes notes, outcome; /* what was done; what is to be said of the current result, after the other notes */
+    int refining;             /* knots are still to be found for a tolerance */
+    pia_index round;          /* rounds of growing, sparing, correcting */
+    double began;             /* of a refinement: when it would have begun if it had not been interrupted */
+    double *all_parameters;   /* of a grid, u then v, once asked for; NULL before */
+    double seconds;           /* spent in opening */
 };
 
 pia_status pia_fit_take_data(pia_fit *fit, const pia_data *data);
@@ -106,6 +107,13 @@ pia_status pia_fit_restart(pia_fit *fit);
 
 /* Adds a note; memory that is too short for a note is not an error. */
 void pia_fit_note_add(pia_fit *fit, const char *format, ...) __attribute__((format(printf, 2, 3)));
+
+/* The outcome anew: inflections where a limiter ran. Memory that is too short for a note is not an error. */
+void pia_fit_conclude(pia_fit *fit);
+/* A note of the outcome: "COUNT TEXT: ", then the first twenty of list [count]. */
+void pia_fit_outcome_add(pia_fit *fit, const char *text, const pia_index *list, pia_index count);
+/* A model of the current iterate without what it came from. */
+pia_status pia_fit_bare_model(pia_fit *fit, pia_model **out);
 
 /* Makes points and the row numbers the fit's own, so that rows can be dropped or turned. */
 pia_status pia_fit_own_rows(pia_fit *fit);

@@ -230,5 +230,6 @@ void pia_fit_close(pia_fit *fit)
     pia_give(context, fit->dropped);
     pia_give(context, fit->weights);
     pia_notes_clear(pia_memory_of(context), &fit->notes);
+    pia_notes_clear(pia_memory_of(context), &fit->outcome);
     pia_give(context, fit);
 }

@@ -12,11 +12,9 @@
 pia_status pia_fit_step(pia_fit *fit, pia_index iterations, pia_report *report)
 {
     if (iterations < 0) return pia_fail(fit->context, PIA_E_ARGUMENT, "%lld iterations are not a count", (long long)iterations);
-    if (fit->refining && fit->solve.stop == PIA_STOP_NONE) {
-        pia_status refined = pia_refine_curve(fit);
-        return refined == PIA_OK && report != NULL ? pia_fit_report(fit, report) : refined;
-    }
-    pia_status status = pia_solve_step(&fit->solve, iterations);
+    int refine = fit->refining && fit->solve.stop == PIA_STOP_NONE;
+    pia_status status = refine ? pia_refine_curve(fit) : pia_solve_step(&fit->solve, iterations);
+    if (status == PIA_OK && fit->solve.stop != PIA_STOP_NONE) pia_fit_conclude(fit);
     if (status == PIA_OK && report != NULL) status = pia_fit_report(fit, report);
     return status;
 }
@@ -84,7 +82,8 @@ int pia_fit_trace(const pia_fit *fit, pia_index index, pia_trace_row *out)
 
 const char *pia_fit_note(const pia_fit *fit, pia_index index)
 {
-    return index >= 0 && index < fit->notes.count ? fit->notes.line[index] : NULL;
+    if (index < 0 || index >= fit->notes.count + fit->outcome.count) return NULL;
+    return index < fit->notes.count ? fit->notes.line[index] : fit->outcome.line[index - fit->notes.count];
 }
 
 pia_status pia_fit_residuals(pia_fit *fit, double *out)
@@ -134,7 +133,7 @@ static void fill_control(pia_fit *fit, double *out)
     }
 }
 
-static pia_status make_model(pia_fit *fit, pia_model **out)
+pia_status pia_fit_bare_model(pia_fit *fit, pia_model **out)
 {
     int wide = fit->dim + fit->function_graph;
     if (!fit->closed[0] && !(fit->directions == 2 && fit->closed[1])) {
@@ -173,6 +172,7 @@ static pia_status attach_summary(pia_fit *fit, pia_model *model)
         summary.parameter_count = parameter_count(fit);
     }
     model->summary = pia_summary_copy(memory, &summary);
+    if (model->summary != NULL) pia_notes_copy(memory, &model->summary->notes, &fit->outcome);
     pia_give(fit->context, parameters);
     return model->summary != NULL ? PIA_OK : pia_fail(fit->context, PIA_E_MEMORY, "out of memory for the summary of the fit");
 }
@@ -181,7 +181,8 @@ pia_status pia_fit_model(pia_fit *fit, pia_model **out)
 {
     if (out == NULL) return pia_fail(fit->context, PIA_E_ARGUMENT, "out is NULL");
     pia_model *model;
-    pia_status status = make_model(fit, &model);
+    pia_fit_conclude(fit);
+    pia_status status = pia_fit_bare_model(fit, &model);
     if (status != PIA_OK) return status;
     status = attach_summary(fit, model);
     if (status != PIA_OK) {

@@ -1,6 +1,7 @@
 /* [2004] Algorithm 1 and Eq. (11): one factor eps for the whole step, the largest for which every turn of the control polygon keeps its
  * sign. Repaired: eps = 1 is tried first, bisection is on a fraction, and when eps |D| falls below delta the fit is stalled, which the
- * paper's Theorem 2 overlooks (it needs the sum of the eps to be infinite). */
+ * paper's Theorem 2 overlooks (it needs the sum of the eps to be infinite). Signs are those of the start: a turn that has become
+ * straight would otherwise be free to bend the other way in the next step. */
 #include "limit.h"
 #include "polygon.h"
 
@@ -10,6 +11,7 @@ enum { DELTA, MAX_HALVINGS = 60 };
 
 typedef struct convex {
     double delta;
+    double *sign;  /* [cols] of each turn to keep; 0: free */
     double *scale; /* [cols] */
 } convex;
 
@@ -17,20 +19,22 @@ static pia_status begin(pia_iterate *iterate, const pia_values *values, void *st
 {
     convex *c = state;
     c->delta = values->is_word[DELTA] ? 1e-9 * iterate->extent : values->number[DELTA];
+    c->sign = pia_take(iterate->context, iterate->op->cols, sizeof *c->sign);
     c->scale = pia_take(iterate->context, iterate->op->cols, sizeof *c->scale);
-    return c->scale != NULL ? pia_polygon_check(iterate, "convex") : PIA_E_MEMORY;
+    if (c->sign == NULL || c->scale == NULL) return pia_take_status(iterate->context, iterate->op->cols, sizeof *c->scale);
+    pia_status status = pia_polygon_check(iterate, "convex");
+    if (status == PIA_OK) pia_polygon_targets(iterate, NULL, c->sign);
+    return status;
 }
 
-/* Whether some turn changes its sign at this factor; turns may become straight and straight ones may not bend the other way. */
+/* Whether some turn changes its sign at this factor; it may become straight. */
 static int bends(const pia_iterate *iterate, convex *c, double factor)
 {
     pia_index first, end;
     for (pia_index i = 0; i < iterate->op->cols; i++) c->scale[i] = factor;
     pia_polygon_turns(iterate, &first, &end);
-    for (pia_index i = first; i < end; i++) {
-        int before = pia_polygon_sign(iterate, NULL, i), after = pia_polygon_sign(iterate, c->scale, i);
-        if (before * after < 0) return 1;
-    }
+    for (pia_index i = first; i < end; i++)
+        if (c->sign[i] * pia_polygon_sign(iterate, c->scale, i) < 0) return 1;
     return 0;
 }
 
@@ -52,7 +56,14 @@ static pia_status limit(pia_iterate *iterate, void *state)
 
 static void end(pia_iterate *iterate, void *state)
 {
-    pia_give(iterate->context, ((convex *)state)->scale);
+    convex *c = state;
+    pia_give(iterate->context, c->sign);
+    pia_give(iterate->context, c->scale);
+}
+
+static void history(pia_iterate *iterate, void *state, void (*visit)(void *, const char *, double *, pia_index), void *user)
+{
+    visit(user, "turns", ((convex *)state)->sign, iterate->op->cols);
 }
 
 static const pia_parameter parameters[] = {
@@ -68,4 +79,5 @@ const pia_limiter pia_limit_convex = {
     .begin = begin,
     .limit = limit,
     .end = end,
+    .history = history,
 };

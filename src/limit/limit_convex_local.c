@@ -7,6 +7,7 @@ enum { DELTA, MAX_ROUNDS = 200 };
 
 typedef struct local {
     double delta;
+    double *sign;  /* [cols] of each turn to keep; 0: free */
     double *scale; /* [cols] */
 } local;
 
@@ -14,8 +15,12 @@ static pia_status begin(pia_iterate *iterate, const pia_values *values, void *st
 {
     local *l = state;
     l->delta = values->is_word[DELTA] ? 1e-9 * iterate->extent : values->number[DELTA];
+    l->sign = pia_take(iterate->context, iterate->op->cols, sizeof *l->sign);
     l->scale = pia_take(iterate->context, iterate->op->cols, sizeof *l->scale);
-    return l->scale != NULL ? pia_polygon_check(iterate, "convex-local") : PIA_E_MEMORY;
+    if (l->sign == NULL || l->scale == NULL) return pia_take_status(iterate->context, iterate->op->cols, sizeof *l->scale);
+    pia_status status = pia_polygon_check(iterate, "convex-local");
+    if (status == PIA_OK) pia_polygon_targets(iterate, NULL, l->sign);
+    return status;
 }
 
 /* One round over all turns; the number of those that would change. */
@@ -24,7 +29,7 @@ static pia_index shorten(pia_iterate *iterate, local *l)
     pia_index first, end, changed = 0;
     pia_polygon_turns(iterate, &first, &end);
     for (pia_index i = first; i < end; i++) {
-        if (pia_polygon_sign(iterate, NULL, i) * pia_polygon_sign(iterate, l->scale, i) >= 0) continue;
+        if (l->sign[i] * pia_polygon_sign(iterate, l->scale, i) >= 0) continue;
         for (pia_index v = i - 1; v <= i + 1; v++) {
             double *scale = &l->scale[pia_polygon_vertex(iterate, v)];
             *scale = *scale > 1e-18 ? *scale / 2 : 0;
@@ -47,7 +52,14 @@ static pia_status limit(pia_iterate *iterate, void *state)
 
 static void end(pia_iterate *iterate, void *state)
 {
-    pia_give(iterate->context, ((local *)state)->scale);
+    local *l = state;
+    pia_give(iterate->context, l->sign);
+    pia_give(iterate->context, l->scale);
+}
+
+static void history(pia_iterate *iterate, void *state, void (*visit)(void *, const char *, double *, pia_index), void *user)
+{
+    visit(user, "turns", ((local *)state)->sign, iterate->op->cols);
 }
 
 static const pia_parameter parameters[] = {
@@ -63,4 +75,5 @@ const pia_limiter pia_limit_convex_local = {
     .begin = begin,
     .limit = limit,
     .end = end,
+    .history = history,
 };
