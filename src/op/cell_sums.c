@@ -7,13 +7,13 @@
 enum { ROOM = (PIA_MAX_DEGREE + 1) * PIA_MAX_DIM }; /* one line of products of a point: pairs, or values times data */
 _Static_assert(ROOM >= (PIA_MAX_DEGREE + 1) * (PIA_MAX_DEGREE + 2) / 2, "a line of pairs must fit");
 
-static int pairs(int degree)
+INLINE int pairs(int degree)
 {
     return (degree + 1) * (degree + 2) / 2;
 }
 
 /* Number of the pair (i, k) or (k, i). */
-static int pair(int i, int k, int degree)
+INLINE int pair(int i, int k, int degree)
 {
     int low = i < k ? i : k, high = i < k ? k : i;
     return low * (degree + 1) - low * (low - 1) / 2 + high - low;
@@ -85,16 +85,25 @@ void pia_cell_add(const pia_cell_block *block, int p, int q, int dim, double *sh
         add(block, p, q, dim, share);
 }
 
-void pia_cell_spread(const double *share, pia_index i, pia_index j, int dim, const pia_stencil *s, double *right)
+INLINE void spread(const double *share, pia_index i, pia_index j, int p, int q, const pia_stencil *s)
 {
-    int p = s->p, q = s->q, along = pairs(q);
     for (int k = 0; k <= p; k++)
         for (int a = 0; k + a <= p; a++) {
-            const double *from = share + pair(k, k + a, p) * along;
+            const double *from = share + pair(k, k + a, p) * pairs(q);
+            double *to = pia_stencil_line(s, i + k, a, 0) + j;
             for (int l = 0; l <= q; l++)
-                for (int b = a == 0 ? 0 : -l; l + b <= q; b++) pia_stencil_line(s, i + k, a, b)[j + l] += from[pair(l, l + b, q)];
+                for (int b = a == 0 ? 0 : -l; l + b <= q; b++) to[b * s->stride + l] += from[pair(l, l + b, q)];
         }
-    share += pairs(p) * along;
+}
+
+void pia_cell_spread(const double *share, pia_index i, pia_index j, int dim, const pia_stencil *s, double *right)
+{
+    int p = s->p, q = s->q;
+    if (p == 3 && q == 3)
+        spread(share, i, j, 3, 3, s);
+    else
+        spread(share, i, j, p, q, s);
+    share += pairs(p) * pairs(q);
     for (int k = 0; k <= p; k++)
         for (int l = 0; l < (q + 1) * dim; l++) right[((i + k) * s->columns + j) * dim + l] += *share++;
 }

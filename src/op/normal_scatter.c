@@ -53,8 +53,7 @@ static pia_index find_point(const pia_op *op, pia_index strip, pia_index column,
     pia_index span[2] = {axis[0]->degree + strip, axis[1]->degree + column};
     if (scatter != NULL) {
         pia_index at = scatter->begin[strip * scatter->cells[1] + column] + k;
-        pia_basis_values(axis[0]->knots, axis[0]->degree, span[0], scatter->sorted[2 * at], u);
-        pia_basis_values(axis[1]->knots, axis[1]->degree, span[1], scatter->sorted[2 * at + 1], v);
+        pia_scatter_values(scatter, strip, column, at, u, v);
         return scatter->order[at];
     }
     pia_index across = axis[1]->begin[column + 1] - axis[1]->begin[column];
@@ -83,11 +82,15 @@ static void sum_cell(const pass *p, pia_index strip, pia_index column, double *s
 {
     const pia_stencil *stencil = &p->s->stencil;
     pia_index points = count_points(p->normal->op, strip, column);
+    const pia_scatter *scatter = pia_op_scatter(p->normal->op);
     int dim = p->targets->dim;
     pia_cell_block block = {.count = 0};
     if (points == 0) return;
     memset(share, 0, (size_t)pia_cell_room(stencil->p, stencil->q, dim) * sizeof *share);
     for (pia_index k = 0; k < points; k++) {
+        if (scatter != NULL)
+            pia_scatter_fetch(scatter, scatter->begin[strip * scatter->cells[1] + column] + k, p->normal->op->rows, p->targets->points,
+                              dim);
         put_point(p, strip, column, k, &block);
         if (block.count < PIA_CELL_BLOCK && k + 1 < points) continue;
         pia_cell_add(&block, stencil->p, stencil->q, dim, share);

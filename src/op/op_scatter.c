@@ -1,6 +1,7 @@
 #include "op_scatter.h"
 
 #include "basis.h"
+#include "chebyshev.h"
 #include "kernel.h"
 #include "knots.h"
 #include "strips.h"
@@ -8,7 +9,72 @@
 #include <math.h>
 #include <string.h>
 
-enum { GRAIN = 8192, MAX_CHUNKS = 64 };
+#define INLINE static inline __attribute__((always_inline))
+
+enum { GRAIN = 8192, MAX_CHUNKS = 64, MAX_POLYNOMIAL = 7 };
+
+/* ---- basis values ---- */
+
+/* Middle and scale of a span, then coefficient j of all its functions, j = 0 .. degree. */
+static pia_index polynomial_size(int degree)
+{
+    return 2 + (degree + 1) * (degree + 1);
+}
+
+/* A small matrix times Chebyshev polynomials, without the divisions of the recursion. */
+INLINE void evaluate(const double *polynomial, int degree, double t, double *value)
+{
+    double x = (t - polynomial[0]) * polynomial[1], before = 1, now = x;
+    const double *coefficient = polynomial + 2;
+    for (int k = 0; k <= degree; k++) value[k] = coefficient[k];
+    for (int j = 1; j <= degree; j++) {
+        coefficient += degree + 1;
+        for (int k = 0; k <= degree; k++) value[k] += now * coefficient[k];
+        double next = 2 * x * now - before;
+        before = now;
+        now = next;
+    }
+}
+
+static void values_on(const pia_scatter *scatter, int d, pia_index span, double t, double *value)
+{
+    const pia_collocation *axis = &scatter->axis[d];
+    const double *polynomial = scatter->polynomial[d];
+    if (polynomial == NULL)
+        pia_basis_values(axis->knots, axis->degree, axis->degree + span, t, value);
+    else if (axis->degree == 3)
+        evaluate(polynomial + span * polynomial_size(3), 3, t, value);
+    else
+        evaluate(polynomial + span * polynomial_size(axis->degree), axis->degree, t, value);
+}
+
+void pia_scatter_values(const pia_scatter *scatter, pia_index strip, pia_index column, pia_index at, double *u, double *v)
+{
+    values_on(scatter, 0, strip, scatter->sorted[2 * at], u);
+    values_on(scatter, 1, column, scatter->sorted[2 * at + 1], v);
+}
+
+/* Empty spans hold no rows and stay as they are. */
+static pia_status make_polynomials(pia_context *context, pia_scatter *scatter, int d)
+{
+    const pia_collocation *axis = &scatter->axis[d];
+    int width = axis->degree + 1;
+    pia_index size = polynomial_size(axis->degree);
+    pia_chebyshev chebyshev;
+    double coefficient[(MAX_POLYNOMIAL + 1) * (MAX_POLYNOMIAL + 1)];
+    if (axis->degree > MAX_POLYNOMIAL) return PIA_OK;
+    double *out = pia_take_zero(context, scatter->cells[d], (size_t)size * sizeof *out);
+    scatter->polynomial[d] = out;
+    if (out == NULL) return pia_take_status(context, scatter->cells[d], (size_t)size * sizeof *out);
+    pia_chebyshev_fill(axis->degree, &chebyshev);
+    for (pia_index s = 0; s < scatter->cells[d]; s++, out += size) {
+        if (!(axis->knots[axis->degree + s] < axis->knots[axis->degree + s + 1])) continue;
+        pia_chebyshev_span(&chebyshev, axis, s, &out[0], &out[1], coefficient);
+        for (int k = 0; k < width; k++)
+            for (int j = 0; j < width; j++) out[2 + j * width + k] = coefficient[k * width + j];
+    }
+    return PIA_OK;
+}
 
 /* ---- sorting ---- */
 
@@ -104,27 +170,30 @@ static cell cell_at(const pia_scatter *scatter, pia_index strip, pia_index colum
     return (cell){strip, column, scatter->begin[c], scatter->begin[c + 1], scatter->axis[0].degree, scatter->axis[1].degree};
 }
 
-static void row_values(const pia_scatter *scatter, const cell *c, pia_index at, double *u, double *v)
-{
-    pia_basis_values(scatter->axis[0].knots, c->p, c->p + c->strip, scatter->sorted[2 * at], u);
-    pia_basis_values(scatter->axis[1].knots, c->q, c->q + c->column, scatter->sorted[2 * at + 1], v);
-}
-
 /* sum [dim] = value of the model at a sorted row. */
-static void model_value(const pass *p, const cell *c, pia_index at, double *sum)
+INLINE void add_row(const pass *p, const cell *c, pia_index at, int degree_u, int degree_v, int dim, double *sum)
 {
     double u[PIA_MAX_DEGREE + 1], v[PIA_MAX_DEGREE + 1];
     pia_index line = p->scatter->axis[1].full;
-    int dim = p->dim;
-    row_values(p->scatter, c, at, u, v);
+    pia_scatter_values(p->scatter, c->strip, c->column, at, u, v);
     for (int d = 0; d < dim; d++) sum[d] = 0;
-    for (int i = 0; i <= c->p; i++) {
+    for (int i = 0; i <= degree_u; i++) {
         const double *control = p->full + ((c->strip + i) * line + c->column) * dim;
         double along[PIA_MAX_DIM] = {0};
-        for (int j = 0; j <= c->q; j++)
+        for (int j = 0; j <= degree_v; j++)
             for (int d = 0; d < dim; d++) along[d] += v[j] * control[j * dim + d];
         for (int d = 0; d < dim; d++) sum[d] += u[i] * along[d];
     }
+}
+
+static void model_value(const pass *p, const cell *c, pia_index at, double *sum)
+{
+    if (c->p == 3 && c->q == 3 && p->dim == 3)
+        add_row(p, c, at, 3, 3, 3, sum);
+    else if (c->p == 3 && c->q == 3 && p->dim == 1)
+        add_row(p, c, at, 3, 3, 1, sum);
+    else
+        add_row(p, c, at, c->p, c->q, p->dim, sum);
 }
 
 static void apply_chunk(void *work, pia_index chunk)
@@ -164,6 +233,7 @@ static void residual_chunk(void *work, pia_index chunk)
             cell c = cell_at(scatter, strip, column);
             for (pia_index at = c.begin; at < c.end; at++) {
                 pia_index row = scatter->order[at];
+                pia_scatter_fetch(scatter, at, scatter->begin[scatter->cells[0] * scatter->cells[1]], p->targets->points, dim);
                 const double *target = p->targets->points + row * dim;
                 double square = 0;
                 model_value(p, &c, at, sum);
@@ -194,7 +264,7 @@ static void gather_strip(void *work, pia_index strip)
             pia_index row = scatter->order[at];
             const double *value = p->in + row * dim;
             double w = p->weights != NULL ? p->weights[row] : 1;
-            row_values(scatter, &c, at, u, v);
+            pia_scatter_values(scatter, strip, column, at, u, v);
             for (int i = 0; i <= c.p; i++) {
                 double *to = p->out + ((strip + i) * line + column) * dim, wu = w * u[i];
                 for (int j = 0; j <= c.q; j++)
@@ -256,6 +326,7 @@ static void close_state(pia_op *op)
     pia_give(op->context, scatter->begin);
     pia_give(op->context, scatter->order);
     pia_give(op->context, scatter->sorted);
+    for (int d = 0; d < 2; d++) pia_give(op->context, scatter->polynomial[d]);
     pia_give(op->context, scatter);
 }
 
@@ -291,7 +362,9 @@ static pia_status fill(pia_op *op, pia_collocation *axis, const double *paramete
         op->axis[d] = &scatter->axis[d];
         scatter->cells[d] = scatter->axis[d].full - scatter->axis[d].degree;
     }
-    return take_rows(op, parameters);
+    pia_status status = take_rows(op, parameters);
+    for (int d = 0; d < 2 && status == PIA_OK; d++) status = make_polynomials(op->context, scatter, d);
+    return status;
 }
 
 pia_status pia_op_scatter_open(pia_context *context, const int *degree, const pia_map *map, const double *const *knots,

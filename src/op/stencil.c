@@ -4,6 +4,8 @@
 
 #include <string.h>
 
+#define INLINE static inline __attribute__((always_inline))
+
 enum { GRAIN = 4096 }; /* control points a thread should get at least */
 
 pia_status pia_stencil_open(const pia_op *op, int dim, pia_stencil *out)
@@ -41,11 +43,6 @@ void pia_stencil_clear(pia_stencil *s)
     memset(s->entry, 0, (size_t)(s->lines * (s->p + 1) * (2 * s->q + 1) * s->stride) * sizeof *s->entry);
 }
 
-double *pia_stencil_line(const pia_stencil *s, pia_index i, int a, int b)
-{
-    return s->entry + ((i * (s->p + 1) + a) * (2 * s->q + 1) + b + s->q) * s->stride + s->q;
-}
-
 /* ---- products ---- */
 
 typedef struct product {
@@ -55,44 +52,57 @@ typedef struct product {
     double *out;
 } product;
 
-/* y[j] += sum over b = from .. q of line_b[j] x[j + b]; the zeros around lines and x make every j alike. */
-static inline __attribute__((always_inline)) void add_forward(const double *line, pia_index stride, int from, int q, pia_index count,
-                                                              const double *restrict x, double *restrict y)
+/* y[j] += sum over b = from .. q of line_b[j] x[j + b]; the zeros around lines and x make every j alike. back: the transposed entries,
+ * y[j + b] += line_b[j] x[j] gathered by j + b. One component, and three that share the entries. */
+INLINE void add_one(const double *line, pia_index stride, int from, int q, int back, pia_index count, const double *restrict x,
+                    double *restrict y)
 {
     for (pia_index j = 0; j < count; j++) {
         double sum = 0;
-        for (int b = from; b <= q; b++) sum += line[b * stride + j] * x[j + b];
+        for (int b = from; b <= q; b++) sum += line[b * stride + (back ? j - b : j)] * x[back ? j - b : j + b];
         y[j] += sum;
     }
 }
 
-/* The transposed entries: y[j + b] += line_b[j] x[j], gathered by j + b. */
-static inline __attribute__((always_inline)) void add_backward(const double *line, pia_index stride, int from, int q, pia_index count,
-                                                               const double *restrict x, double *restrict y)
+INLINE void add_three(const double *line, pia_index stride, int from, int q, int back, pia_index count, const double *restrict x,
+                      double *restrict y)
 {
     for (pia_index j = 0; j < count; j++) {
-        double sum = 0;
-        for (int b = from; b <= q; b++) sum += line[b * stride + j - b] * x[j - b];
-        y[j] += sum;
+        double sum0 = 0, sum1 = 0, sum2 = 0;
+        for (int b = from; b <= q; b++) {
+            double entry = line[b * stride + (back ? j - b : j)];
+            const double *at = x + (back ? j - b : j + b);
+            sum0 += entry * at[0];
+            sum1 += entry * at[stride];
+            sum2 += entry * at[2 * stride];
+        }
+        y[j] += sum0;
+        y[stride + j] += sum1;
+        y[2 * stride + j] += sum2;
     }
 }
 
-static inline __attribute__((always_inline)) void multiply_line(const product *p, pia_index i, int q)
+INLINE void add(const product *p, pia_index line, int a, int from, int q, int back, const double *x, double *y)
 {
     const pia_stencil *s = p->s;
-    for (int d = 0; d < p->dim; d++) {
-        double *y = s->y + (i * p->dim + d) * s->stride + q;
-        memset(y, 0, (size_t)s->columns * sizeof *y);
-        for (int a = s->p; a >= 0; a--) {
-            if (i < a) continue;
-            const double *x = s->x + ((i - a) * p->dim + d) * s->stride + q;
-            add_backward(pia_stencil_line(s, i - a, a, 0), s->stride, a == 0 ? 1 : -q, q, s->columns, x, y);
-        }
-        for (int a = 0; a <= s->p && i + a < s->lines; a++) {
-            const double *x = s->x + ((i + a) * p->dim + d) * s->stride + q;
-            add_forward(pia_stencil_line(s, i, a, 0), s->stride, a == 0 ? 0 : -q, q, s->columns, x, y);
-        }
-    }
+    const double *entries = pia_stencil_line(s, line, a, 0);
+    int d = 0;
+    for (; d + 3 <= p->dim; d += 3) add_three(entries, s->stride, from, q, back, s->columns, x + d * s->stride, y + d * s->stride);
+    for (; d < p->dim; d++) add_one(entries, s->stride, from, q, back, s->columns, x + d * s->stride, y + d * s->stride);
+}
+
+INLINE void multiply_line(const product *p, pia_index i, int q)
+{
+    const pia_stencil *s = p->s;
+    pia_index size = p->dim * s->stride;
+    const double *x = s->x + i * size + q;
+    double *y = s->y + i * size + q;
+    memset(s->y + i * size, 0, (size_t)size * sizeof *y);
+    for (int a = s->p; a >= 1; a--)
+        if (i >= a) add(p, i - a, a, -q, q, 1, x - a * size, y);
+    add(p, i, 0, 1, q, 1, x, y);
+    add(p, i, 0, 0, q, 0, x, y);
+    for (int a = 1; a <= s->p && i + a < s->lines; a++) add(p, i, a, -q, q, 0, x + a * size, y);
 }
 
 static void multiply_chunk(void *work, pia_index chunk)

@@ -21,7 +21,10 @@ void pia_stencil_close(pia_stencil *stencil);
 void pia_stencil_clear(pia_stencil *stencil);
 
 /* The entries that couple (i, j) with (i + a, j + b) for all j, 0 <= a <= p, -q <= b <= q; for a = 0 only b >= 0 is used. */
-double *pia_stencil_line(const pia_stencil *stencil, pia_index i, int a, int b);
+static inline double *pia_stencil_line(const pia_stencil *stencil, pia_index i, int a, int b)
+{
+    return stencil->entry + ((i * (stencil->p + 1) + a) * (2 * stencil->q + 1) + b + stencil->q) * stencil->stride + stencil->q;
+}
 
 /* y = S x over full control points, x and y [lines x columns x dim]. */
 void pia_stencil_multiply(const pia_stencil *stencil, const double *x, int dim, double *y);
