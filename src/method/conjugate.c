@@ -2,7 +2,10 @@
 
 #include "vectors.h"
 
+#include <math.h>
 #include <string.h>
+
+enum { MAX_AGE = 10 };
 
 pia_status pia_conjugate_open(pia_iterate *iterate, pia_conjugate *out)
 {
@@ -41,12 +44,23 @@ static void combine(const pia_iterate *iterate, const double *x, const double *f
         for (int d = 0; d < dim; d++) y[k * dim + d] = x[k * dim + d] + factor[d] * y[k * dim + d];
 }
 
+static void renew_gradient(pia_iterate *iterate, pia_conjugate *c)
+{
+    double *g = c->vector[PIA_CG_GRADIENT];
+    if (c->age == 0) {
+        pia_iterate_gradient(iterate, g);
+        return;
+    }
+    double norm = sqrt(pia_iterate_dot(iterate, g, g));
+    iterate->relative_gradient = iterate->right_norm > 0 ? norm / iterate->right_norm : norm;
+}
+
 void pia_conjugate_step(pia_iterate *iterate, pia_conjugate *c, pia_condition *condition, void *user)
 {
     int dim = iterate->dim;
     double gamma[PIA_MAX_DIM] = {0}, factor[PIA_MAX_DIM], curvature[PIA_MAX_DIM];
     double *g = c->vector[PIA_CG_GRADIENT], *search = c->vector[PIA_CG_SEARCH], *image = c->vector[PIA_CG_IMAGE], *z = iterate->adjust;
-    pia_iterate_gradient(iterate, g);
+    renew_gradient(iterate, c);
     condition(iterate, user, g, z);
     dot_components(iterate, c, g, z, gamma);
     memcpy(factor, gamma, sizeof gamma);
@@ -57,11 +71,17 @@ void pia_conjugate_step(pia_iterate *iterate, pia_conjugate *c, pia_condition *c
     dot_components(iterate, c, search, image, curvature);
     divide(dim, gamma, curvature);
     for (pia_index k = 0; k < iterate->op->cols; k++)
-        for (int d = 0; d < dim; d++) iterate->adjust[k * dim + d] = gamma[d] * search[k * dim + d];
+        for (int d = 0; d < dim; d++) {
+            iterate->adjust[k * dim + d] = gamma[d] * search[k * dim + d];
+            g[k * dim + d] -= gamma[d] * image[k * dim + d];
+        }
+    c->age = c->age + 1 < MAX_AGE ? c->age + 1 : 0;
 }
 
 void pia_conjugate_visit(pia_iterate *iterate, pia_conjugate *c, void (*visit)(void *, const char *, double *, pia_index), void *user)
 {
     visit(user, "search", c->vector[PIA_CG_SEARCH], iterate->op->cols * iterate->dim);
+    visit(user, "gradient", c->vector[PIA_CG_GRADIENT], iterate->op->cols * iterate->dim);
+    visit(user, "age", &c->age, 1);
     visit(user, "gamma", c->gamma, PIA_MAX_DIM);
 }
