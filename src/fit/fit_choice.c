@@ -70,6 +70,31 @@ static int is_refining(const pia_fit *fit)
     return 1;
 }
 
+/* Control points that were asked for; 0 where that is left open. */
+static pia_index asked_controls(const pia_fit *fit)
+{
+    const pia_fit_options *o = &fit->options;
+    pia_index product = 1;
+    for (int d = 0; d < fit->directions; d++) {
+        pia_index count = o->knots[d] != NULL ? o->knot_count[d] - o->degree[d] - 1 : o->control[d];
+        if (count < 1 || !pia_multiply(product, count, &product)) return 0;
+    }
+    return product;
+}
+
+/* Surfaces whose equations are neither banded nor a Kronecker product: factors of a large one cost more than a few dozen products with
+ * it, unless the data are so thin that the preconditioner says little. */
+static const char *automatic_sparse(pia_fit *fit)
+{
+    pia_index control = asked_controls(fit);
+    if (control > 10000 && fit->rows / 10 > control) {
+        pia_fit_note_add(fit, "method: cg-kron, because a sparse factorisation of so many control points costs more");
+        return "cg-kron";
+    }
+    pia_fit_note_add(fit, "method: direct, sparse normal equations");
+    return "direct";
+}
+
 static const char *automatic(pia_fit *fit)
 {
     const pia_fit_options *o = &fit->options;
@@ -98,8 +123,8 @@ static const char *automatic(pia_fit *fit)
             fit, "method: direct, with knots added where the error is and spared where it is not, because a tolerance is asked");
         return "direct";
     }
-    pia_fit_note_add(fit, fit->has_holes || fit->kind == PIA_SCATTERED ? "method: direct, sparse normal equations"
-                                                                       : "method: direct, banded normal equations");
+    if (fit->kind == PIA_SCATTERED || (fit->kind == PIA_GRID && (fit->has_holes || fit->weights != NULL))) return automatic_sparse(fit);
+    pia_fit_note_add(fit, "method: direct, banded normal equations");
     return "direct";
 }
 

@@ -43,37 +43,21 @@ static void from_data(pia_fit *fit)
     }
 }
 
-/* Means of the data by basis value, for scattered points and grids with holes; unknowns without data take the mean of all. */
-static pia_status from_means(pia_fit *fit)
+/* Means of the data by basis value, for scattered points and grids with holes; unknowns without data take the mean of all. Both are in
+ * the normal form already: A'W(Q - origin) over the column sums of WA. */
+static void from_means(pia_fit *fit)
 {
-    pia_op *op = fit->op;
+    const pia_normal *normal = fit->normal;
+    double mean[PIA_MAX_DIM] = {0}, total = 0;
     int dim = fit->dim;
-    double *value = pia_take(fit->context, fit->rows * dim, sizeof *value), *weight = pia_take(fit->context, op->cols, sizeof *weight);
-    if (value == NULL || weight == NULL) {
-        pia_give(fit->context, value);
-        pia_give(fit->context, weight);
-        return PIA_E_MEMORY;
+    for (pia_index c = 0; c < fit->op->cols; c++) {
+        total += normal->column_sum[c];
+        for (int d = 0; d < dim; d++) mean[d] += normal->right[c * dim + d];
     }
-    double mean[PIA_MAX_DIM] = {0};
-    pia_index held = 0;
-    for (pia_index r = 0; r < fit->rows; r++) {
-        int hole = 0;
-        for (int d = 0; d < dim; d++) hole |= isnan(fit->points[r * dim + d]) != 0;
-        for (int d = 0; d < dim; d++) value[r * dim + d] = hole ? 0 : fit->points[r * dim + d] - fit->origin[d];
-        for (int d = 0; d < dim && !hole; d++) mean[d] += (value[r * dim + d] - mean[d]) / (double)(held + 1);
-        held += !hole;
-    }
-    pia_op_gather(op, value, op->weights, dim, fit->iterate.points);
-    for (pia_index r = 0; r < fit->rows; r++) value[r] = isnan(fit->points[r * dim]) ? 0 : 1;
-    pia_op_gather(op, value, op->weights, 1, weight);
-    for (pia_index c = 0; c < op->cols; c++)
-        for (int d = 0; d < dim; d++) {
-            double *x = &fit->iterate.points[c * dim + d];
-            *x = weight[c] > 0 ? *x / weight[c] : mean[d];
-        }
-    pia_give(fit->context, value);
-    pia_give(fit->context, weight);
-    return PIA_OK;
+    for (pia_index c = 0; c < fit->op->cols; c++)
+        for (int d = 0; d < dim; d++)
+            fit->iterate.points[c * dim + d] =
+                normal->column_sum[c] > 0 ? normal->right[c * dim + d] / normal->column_sum[c] : mean[d] / total;
 }
 
 pia_status pia_fit_adopt_control(pia_fit *fit, const pia_model *start)
@@ -97,7 +81,9 @@ pia_status pia_fit_adopt_control(pia_fit *fit, const pia_model *start)
 pia_status pia_fit_initial(pia_fit *fit)
 {
     if (fit->options.start != NULL) return pia_fit_adopt_control(fit, fit->options.start);
-    if (fit->kind == PIA_SCATTERED || fit->has_holes) return from_means(fit);
-    from_data(fit);
+    if (fit->kind == PIA_SCATTERED || fit->has_holes)
+        from_means(fit);
+    else
+        from_data(fit);
     return PIA_OK;
 }
