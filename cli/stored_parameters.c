@@ -49,12 +49,22 @@ static pia_status parameters_of_fit(struct session *session, const pia_points_in
     return status;
 }
 
+/* A fit that begins at the model. */
+static void begin_at(const pia_model *model, pia_fit_options *options)
+{
+    pia_model_info info = {.struct_size = sizeof info};
+    pia_model_get_info(model, &info);
+    options->start = model;
+    options->method = "lspia"; /* which takes any number of control points */
+    for (int d = 0; d < info.directions; d++) options->closed[d] = info.periodic[d];
+}
+
 pia_status named_parameters(struct session *session, const pia_model *model, const pia_points_info *points, const char *name,
                             const double **out)
 {
     pia_fit_options options;
     pia_fit_options_init(&options);
-    options.start = model;
+    begin_at(model, &options);
     options.parametrization = name;
     return parameters_of_fit(session, points, &options, out);
 }
@@ -70,7 +80,7 @@ static const double *parameters_of_report(struct session *session, const pia_mod
         options.method = "pia";
         options.placement = report->placement;
     } else
-        options.start = model;
+        begin_at(model, &options);
     options.parametrization = report->parametrization;
     parameters_of_fit(session, points, &options, &parameters);
     return parameters;
