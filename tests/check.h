@@ -34,7 +34,8 @@ static inline void check_near(double actual, double expected, double tolerance, 
 
 #define assert_near(actual, expected, tolerance) check_near((actual), (expected), (tolerance), #actual, __FILE__, __LINE__)
 
-static inline void check_status(pia_context *context, pia_status status, pia_status expected, const char *what, const char *file, int line)
+static inline void check_status(pia_context *context, pia_status status, pia_status expected, const char *what, const char *file,
+                                int line)
 {
     if (status == expected) return;
     print_error("%s gave \"%s\" (%s), expected \"%s\"\n", what, pia_strerror(status), pia_message(context), pia_strerror(expected));

@@ -31,13 +31,13 @@ extern "C" {
 
 /* ------------------------------------------------------------------------------------------------ basics ---- */
 
-typedef int64_t pia_index;                 /* counts, indices, offsets */
-typedef struct pia_context pia_context;    /* threads, backend, allocator, log, last message */
-typedef struct pia_model pia_model;        /* an immutable B-spline or NURBS curve or surface */
-typedef struct pia_fit pia_fit;            /* one problem being iterated */
-typedef struct pia_points pia_points;      /* points read from a file */
+typedef int64_t pia_index;              /* counts, indices, offsets */
+typedef struct pia_context pia_context; /* threads, backend, allocator, log, last message */
+typedef struct pia_model pia_model;     /* an immutable B-spline or NURBS curve or surface */
+typedef struct pia_fit pia_fit;         /* one problem being iterated */
+typedef struct pia_points pia_points;   /* points read from a file */
 
-enum { PIA_AUTO = -1 };                    /* "chosen by the library" for counts, degrees, thresholds */
+enum { PIA_AUTO = -1 }; /* "chosen by the library" for counts, degrees, thresholds */
 enum { PIA_MAX_DEGREE = 25, PIA_MAX_DIM = 16 };
 
 /* What a call answers. */
@@ -85,8 +85,8 @@ const char *pia_version(void);
 /* How a context works. */
 typedef struct pia_context_options {
     size_t struct_size;
-    int threads;                                              /* 1 to 1024; PIA_AUTO: as many as the machine has, used only where they pay */
-    const char *backend;                                      /* a name of the registry "backend"; NULL: the best available */
+    int threads;         /* 1 to 1024; PIA_AUTO: as many as the machine has, used only where they pay */
+    const char *backend; /* a name of the registry "backend"; NULL: the best available */
     void *(*allocate)(void *user, size_t size, size_t align); /* NULL: the C library's. size > 0, align a power of two up to 64 */
     void (*release)(void *user, void *block);                 /* must be given with allocate; block may be NULL */
     void (*log)(void *user, int level, const char *text);     /* level 0 detail, 1 information, 2 warning; NULL: silent */
@@ -117,16 +117,16 @@ typedef struct pia_entry {
 /* A parameter of a method's record, given as text by pia_fit_options.method_options or pia_fit_set. */
 typedef struct pia_parameter {
     const char *name;
-    const char *values;    /* "column|scalar|number" for words; NULL for a plain number */
-    const char *initial;   /* default as text */
+    const char *values;  /* "column|scalar|number" for words; NULL for a plain number */
+    const char *initial; /* default as text */
     double minimum, maximum;
-    const char *sentence;  /* what it does */
+    const char *sentence; /* what it does */
 } pia_parameter;
 
 /* Entry number `index` of a registry; returns 0 past the end or for an unknown registry, 1 otherwise. */
 int pia_list(const char *registry, pia_index index, pia_entry *out);
-/* Parameter number `index` of a method; returns 0 past the end or for an unknown method, 1 otherwise. */
-int pia_list_parameters(const char *method, pia_index index, pia_parameter *out);
+/* Parameter number `index` of the method or limiter of this name; returns 0 past the end or for an unknown name, 1 otherwise. */
+int pia_list_parameters(const char *name, pia_index index, pia_parameter *out);
 
 /* ------------------------------------------------------------------------------------------- data to fit ---- */
 
@@ -152,11 +152,11 @@ void pia_data_init(pia_data *data);
 /* One linear condition on the model: a value or a derivative, at a data row or at a parameter. */
 typedef struct pia_constraint {
     size_t struct_size;
-    pia_index at_point;      /* data row; PIA_AUTO: at_parameter is used */
-    double at_parameter[2];  /* in the units of the parameters used */
-    int derivative[2];       /* order in u and v; {0,0} is the point itself */
-    int direction_only;      /* 1: only the direction of `value` counts, the length is free */
-    const double *value;     /* [dim]; NULL: the data point (value constraints at a data row only) */
+    pia_index at_point;     /* data row; PIA_AUTO: at_parameter is used */
+    double at_parameter[2]; /* in the units of the parameters used */
+    int derivative[2];      /* order in u and v; {0,0} is the point itself */
+    int direction_only;     /* 1: only the direction of `value` counts, the length is free */
+    const double *value;    /* [dim]; NULL: the data point (value constraints at a data row only) */
 } pia_constraint;
 
 /* Zeroes, at_point = PIA_AUTO. */
@@ -166,24 +166,24 @@ void pia_constraint_init(pia_constraint *constraint);
 typedef struct pia_report {
     size_t struct_size;
     pia_kind kind;
-    char method[24];                /* what ran, also when "auto" chose it */
+    char method[24]; /* what ran, also when "auto" chose it */
     char parametrization[24], placement[24], limiter[24];
     int degree[2];
-    pia_index control[2];           /* control points a direction, of a closed one without the repeated ones; control[1] is 1 for a curve */
+    pia_index control[2]; /* control points a direction, of a closed one without the repeated ones; control[1] is 1 for a curve */
     pia_index control_count, point_count, iterations;
     pia_stop stop;
-    int reached;                    /* 1 or 0; PIA_AUTO: no tolerance was asked */
-    double max_error;               /* largest deviation at the parameters used, units of the points */
-    pia_index max_error_index;      /* row of the data as given */
-    double rms_error, constraint_error, relative_gradient;   /* constraint_error is NAN without constraints */
-    double start_error;             /* max_error of the initial model */
-    double rate;                    /* observed factor of the error from one iteration to the next; NAN if unknown */
-    int measure_distance;           /* 1: errors are true distances (foot points) */
-    pia_index repaired_count;       /* rows dropped or merged; pia_model_note and pia_fit_note name them */
-    pia_index unsupported_count;    /* control points that no data holds */
-    pia_index outlier_count;        /* rows the robust loss gave less than half weight */
-    pia_index round_count;          /* rounds of knot insertion or parameter correction */
-    double seconds;                 /* time spent inside this fit */
+    int reached;                                           /* 1 or 0; PIA_AUTO: no tolerance was asked */
+    double max_error;                                      /* largest deviation at the parameters used, units of the points */
+    pia_index max_error_index;                             /* row of the data as given */
+    double rms_error, constraint_error, relative_gradient; /* constraint_error is NAN without constraints */
+    double start_error;                                    /* max_error of the initial model */
+    double rate;                 /* observed factor of the error from one iteration to the next; NAN if unknown */
+    int measure_distance;        /* 1: errors are true distances (foot points) */
+    pia_index repaired_count;    /* rows dropped or merged; pia_model_note and pia_fit_note name them */
+    pia_index unsupported_count; /* control points that no data holds */
+    pia_index outlier_count;     /* rows the robust loss gave less than half weight */
+    pia_index round_count;       /* rounds of knot insertion or parameter correction */
+    double seconds;              /* time spent inside this fit */
 } pia_report;
 
 /* One row of the trace: the model after `iteration` updates. */
@@ -195,41 +195,42 @@ typedef struct pia_trace_row {
 /* What to fit, how, and when to stop. */
 typedef struct pia_fit_options {
     size_t struct_size;
-    int degree[2];                  /* 1 to PIA_MAX_DEGREE; default 3, 3 */
-    int closed[2];                  /* 1: periodic in that direction; a repeated last point is accepted; default 0 */
-    pia_index control[2];           /* control points; PIA_AUTO: as many as the method or the tolerance needs */
-    double tolerance;               /* largest deviation wanted, units of the points; 0: none asked */
-    int measure_distance;           /* 1: the tolerance and the report measure true distance */
-    const char *method;             /* registry "method"; NULL: "auto" */
+    int degree[2];                     /* 1 to PIA_MAX_DEGREE; default 3, 3 */
+    int closed[2];                     /* 1: periodic in that direction; a repeated last point is accepted; default 0 */
+    pia_index control[2];              /* control points; PIA_AUTO: as many as the method or the tolerance needs */
+    double tolerance;                  /* largest deviation wanted, units of the points; 0: none asked */
+    int measure_distance;              /* 1: the tolerance and the report measure true distance */
+    const char *method;                /* registry "method"; NULL: "auto" */
     const char *const *method_options; /* [method_option_count] texts "name=value" */
     pia_index method_option_count;
-    const char *parametrization;    /* registry "parametrization"; NULL: chord, or the method's own */
-    const char *placement;          /* registry "placement"; NULL: the method's own */
-    const char *limiter;            /* registry "limiter"; NULL: none */
+    const char *parametrization;        /* registry "parametrization"; NULL: chord, or the method's own */
+    const char *placement;              /* registry "placement"; NULL: the method's own */
+    const char *limiter;                /* registry "limiter"; NULL: none */
     const char *const *limiter_options; /* [limiter_option_count] texts "name=value" */
     pia_index limiter_option_count;
-    const double *knots[2];         /* NULL: placed. Full knot vector, knot_count values */
+    const double *knots[2]; /* NULL: placed. Full knot vector, knot_count values */
     pia_index knot_count[2];
-    const pia_model *start;         /* NULL: the method's own start; else its knots, degrees and control points are iterate 0 */
-    const pia_index *interpolate;   /* data rows met exactly */
+    const pia_model *start;       /* NULL: the method's own start; else its knots, degrees and control points are iterate 0 */
+    const pia_index *interpolate; /* data rows met exactly */
     pia_index interpolate_count;
     const pia_constraint *constraints;
     pia_index constraint_count;
-    double soft;                    /* > 0: constraints become least-squares rows of this weight; 0: hard */
-    const pia_index *freeze;        /* control points that stay, row-major index */
+    double soft;             /* > 0: constraints become least-squares rows of this weight; 0: hard */
+    const pia_index *freeze; /* control points that stay, row-major index */
     pia_index freeze_count;
-    double fairing;                 /* weight of the fairing energy, relative: 1 makes it as strong as the data; 0: none */
-    const char *robust;             /* NULL, "huber" or "tukey" */
-    double robust_scale;            /* tuning constant; PIA_AUTO: 1.345 and 4.685 */
-    pia_index correct;              /* rounds of foot-point parameter correction; 0: none */
-    const pia_index *corners;       /* data rows that are corners */
-    pia_index corner_count;         /* PIA_AUTO: found; 0: none */
-    pia_index max_iterations;       /* PIA_AUTO: the method's own */
-    double stop_change;             /* units of the points; PIA_AUTO: 1e-14 of the extent; 0: never */
-    double stop_gradient;           /* relative; PIA_AUTO: 1e-12 where the method has a gradient; 0: never */
-    double time_limit;              /* seconds; 0: none */
-    pia_index trace_every;          /* rows of the trace: 0 none, k every k-th iteration and the last */
-    int (*progress)(void *user, const pia_report *so_far);   /* called at least once an iteration or round; non-zero stops and keeps the model */
+    double fairing;           /* weight of the fairing energy, relative: 1 makes it as strong as the data; 0: none */
+    const char *robust;       /* NULL, "huber" or "tukey" */
+    double robust_scale;      /* tuning constant; PIA_AUTO: 1.345 and 4.685 */
+    pia_index correct;        /* rounds of foot-point parameter correction; 0: none */
+    const pia_index *corners; /* data rows that are corners */
+    pia_index corner_count;   /* PIA_AUTO: found; 0: none */
+    pia_index max_iterations; /* PIA_AUTO: the method's own */
+    double stop_change;       /* units of the points; PIA_AUTO: 1e-14 of the extent; 0: never */
+    double stop_gradient;     /* relative; PIA_AUTO: 1e-12 where the method has a gradient; 0: never */
+    double time_limit;        /* seconds; 0: none */
+    pia_index trace_every;    /* rows of the trace: 0 none, k every k-th iteration and the last */
+    int (*progress)(void *user,
+                    const pia_report *so_far); /* called at least once an iteration or round; non-zero stops and keeps the model */
     void *user;
 } pia_fit_options;
 
@@ -293,8 +294,8 @@ void pia_fit_close(pia_fit *fit);
 /* What a model is. */
 typedef struct pia_model_info {
     size_t struct_size;
-    int directions;          /* 1 curve, 2 surface */
-    int dim;                 /* components of a point, without the weight */
+    int directions; /* 1 curve, 2 surface */
+    int dim;        /* components of a point, without the weight */
     int rational;
     int degree[2];
     pia_index control[2];    /* control points a direction; control[1] is 1 for a curve */
@@ -359,8 +360,8 @@ typedef struct pia_deviation {
     pia_index point_count;
     double max_error, rms_error;
     pia_index max_error_index;
-    double percentile[3];      /* 50, 90 and 99 % of the points deviate at most this much */
-    int foot_points;           /* 1: distances to the closest point; 0: at given parameters */
+    double percentile[3]; /* 50, 90 and 99 % of the points deviate at most this much */
+    int foot_points;      /* 1: distances to the closest point; 0: at given parameters */
 } pia_deviation;
 
 /* Deviation of points from a model. parameters: [count x directions]; NULL: closest points. distances: [count], NULL allowed. */
@@ -376,19 +377,20 @@ pia_status pia_model_read(pia_context *context, const char *path, const char *fo
 void pia_models_destroy(pia_model **models, pia_index count);
 /* Writes models whole or not at all ("-": standard output). Formats that hold samples (csv, npy, obj) take `samples` a direction;
  * PIA_AUTO: enough for a picture. */
-pia_status pia_model_write(pia_context *context, const char *path, const char *format, const pia_model *const *models,
-                           pia_index count, pia_index samples);
-/* Whether pia_model_write knows how to write such a file, so that a wrong name can be refused before the work. Errors: PIA_E_ARGUMENT. */
+pia_status pia_model_write(pia_context *context, const char *path, const char *format, const pia_model *const *models, pia_index count,
+                           pia_index samples);
+/* Whether pia_model_write knows how to write such a file, so that a wrong name can be refused before the work. Errors: PIA_E_ARGUMENT.
+ */
 pia_status pia_model_write_check(pia_context *context, const char *path, const char *format);
 
 /* How to read a file of points. */
 typedef struct pia_points_options {
     size_t struct_size;
-    const char *format;     /* NULL: by extension */
-    const char *columns;    /* "x,y,z" names or "1,2" numbers from 1; NULL: all numeric columns */
-    int skip_invalid;       /* 1: bad rows and rows with values that are not finite are dropped and counted */
-    int grid;               /* 1: a text or 2-D NPY matrix is a grid of heights; 0: rows are points */
-    int allow_nan;          /* 1: NaN is kept (holes of a grid) */
+    const char *format;  /* NULL: by extension */
+    const char *columns; /* "x,y,z" names or "1,2" numbers from 1; NULL: all numeric columns */
+    int skip_invalid;    /* 1: bad rows and rows with values that are not finite are dropped and counted */
+    int grid;            /* 1: a text or 2-D NPY matrix is a grid of heights; 0: rows are points */
+    int allow_nan;       /* 1: NaN is kept (holes of a grid) */
 } pia_points_options;
 
 /* Zeroes and NULL. */
@@ -397,16 +399,16 @@ void pia_points_options_init(pia_points_options *options);
 /* What a point file held; arrays belong to the pia_points. */
 typedef struct pia_points_info {
     size_t struct_size;
-    pia_kind kind;              /* PIA_CURVE for rows of points, PIA_GRID for grids */
-    const double *points;       /* [count[0] x count[1] x dim]; heights come as (x, y, z) */
-    pia_index count[2];         /* count[1] is 1 for rows */
+    pia_kind kind;        /* PIA_CURVE for rows of points, PIA_GRID for grids */
+    const double *points; /* [count[0] x count[1] x dim]; heights come as (x, y, z) */
+    pia_index count[2];   /* count[1] is 1 for rows */
     int dim;
-    pia_index part_count;       /* parts separated by blank lines; 1 for other formats */
-    const pia_index *part;      /* [part_count + 1] first row of each part, and the total */
-    pia_index skipped;          /* rows dropped by skip_invalid */
-    const pia_index *row;       /* [count[0]] data row in the file of each row kept; NULL when none was dropped */
-    const char *const *names;   /* [dim] column names; NULL when the file has none */
-    const char *format;         /* what it was read as */
+    pia_index part_count;     /* parts separated by blank lines; 1 for other formats */
+    const pia_index *part;    /* [part_count + 1] first row of each part, and the total */
+    pia_index skipped;        /* rows dropped by skip_invalid */
+    const pia_index *row;     /* [count[0]] data row in the file of each row kept; NULL when none was dropped */
+    const char *const *names; /* [dim] column names; NULL when the file has none */
+    const char *format;       /* what it was read as */
 } pia_points_info;
 
 /* Points of a file; path "-" is standard input. Errors: PIA_E_ARGUMENT, FILE, FORMAT (file:line: ...), UNAVAILABLE, MEMORY, SIZE. */
@@ -424,15 +426,15 @@ pia_status pia_table_write(pia_context *context, const char *path, const char *f
 /* What a picture shows. */
 typedef struct pia_plot_options {
     size_t struct_size;
-    const char *format;            /* svg, png, pdf; NULL: by extension */
-    double width, height;          /* points of 1/72 inch, pixels for png; 0: chosen from the shape */
-    const char *title;             /* NULL: none */
-    int control, knots, comb;      /* 1: control polygon or net, knot marks, curvature comb. Default 1, 1, 0 */
-    int deviation;                 /* 1: data coloured by deviation with a colour scale; default 1 when points are given */
-    double azimuth, elevation;     /* degrees; viewing direction of surfaces and space curves */
-    const pia_trace_row *trace;    /* NULL: none; else a panel with the convergence history */
+    const char *format;         /* svg, png, pdf; NULL: by extension */
+    double width, height;       /* points of 1/72 inch, pixels for png; 0: chosen from the shape */
+    const char *title;          /* NULL: none */
+    int control, knots, comb;   /* 1: control polygon or net, knot marks, curvature comb. Default 1, 1, 0 */
+    int deviation;              /* 1: data coloured by deviation with a colour scale; default 1 when points are given */
+    double azimuth, elevation;  /* degrees; viewing direction of surfaces and space curves */
+    const pia_trace_row *trace; /* NULL: none; else a panel with the convergence history */
     pia_index trace_count;
-    const double *parameters;      /* of the points, as in pia_model_deviation; NULL: closest points */
+    const double *parameters; /* of the points, as in pia_model_deviation; NULL: closest points */
 } pia_plot_options;
 
 /* The defaults named at the members. */

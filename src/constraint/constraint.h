@@ -67,7 +67,7 @@ pia_status pia_constraints_correct(const pia_constraints *constraints, const pia
 pia_status pia_constraints_schur_bound(const pia_constraints *constraints, const pia_normal *normal, double *out);
 
 /* Soft constraints: a normal form of the data and, with weight `weight` > 0 each, the rows of B: H + weight B'B, b + weight B'R. Every
- * method sees them as data. constraints were built as soft ones; neither they nor normal are owned, both outlive it. */
-pia_status pia_constraints_soften(const pia_constraints *constraints, double weight, pia_normal *normal, pia_normal **out);
+ * method sees them as data. constraints were built as soft ones; neither they nor data are owned, both outlive it. */
+pia_status pia_constraints_soften(const pia_constraints *constraints, double weight, pia_normal *data, pia_normal **out);
 
 #endif

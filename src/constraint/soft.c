@@ -114,13 +114,13 @@ static pia_status fill(pia_normal *normal, const pia_constraints *c, double weig
     return pia_schur_open(c, &s->s);
 }
 
-pia_status pia_constraints_soften(const pia_constraints *c, double weight, pia_normal *data, pia_normal **out)
+pia_status pia_constraints_soften(const pia_constraints *constraints, double weight, pia_normal *data, pia_normal **out)
 {
-    pia_normal *normal = pia_take_zero(c->context, 1, sizeof *normal);
-    if (normal == NULL) return pia_take_status(c->context, 1, sizeof *normal);
+    pia_normal *normal = pia_take_zero(constraints->context, 1, sizeof *normal);
+    if (normal == NULL) return pia_take_status(constraints->context, 1, sizeof *normal);
     normal->class = &soft_class;
-    normal->op = c->op;
-    pia_status status = fill(normal, c, weight, data);
+    normal->op = constraints->op;
+    pia_status status = fill(normal, constraints, weight, data);
     if (status == PIA_OK)
         *out = normal;
     else

@@ -33,8 +33,8 @@ static void headers_titles_comments_and_marks_are_skipped(void **state)
     static const double expected[] = {1, 2, 3, 4};
     static const char *const text[] = {"x,y\n1,2\n3,4\n",
                                        "\xef\xbb\xbfx,y\n1,2\n3,4\n",
-                                       "\xef\xbb\xbf"
-                                       "1,2\n3,4\n",
+                                       ("\xef\xbb\xbf"
+                                        "1,2\n3,4\n"),
                                        "NACA 2412\n1 2\n3 4\n",
                                        "23 AIRFOIL\n1 2\n3 4",
                                        "2\n1 2\n3 4\n",

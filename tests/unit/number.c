@@ -291,7 +291,8 @@ static void no_locale_changes_reading_or_writing(void **state)
         assert_string_equal(text, "-1234.5678");
         assert_ptr_equal(pia_number_parse(text, text + strlen(text), &value), text + strlen(text));
         assert_true(value == -1234.5678);
-        assert_non_null(pia_number_parse("INFINITY", "INFINITY" + 8, &value));
+        const char *infinity = "INFINITY";
+        assert_non_null(pia_number_parse(infinity, infinity + strlen(infinity), &value));
     }
     setlocale(LC_ALL, "C");
 }
