@@ -1,4 +1,4 @@
-/* The JSON model, piece by piece: see docs/formats/json and cli.md, "Model file". */
+/* The JSON model, piece by piece: see docs/formats.md. */
 #ifndef PIA_IO_JSON_H
 #define PIA_IO_JSON_H
 
