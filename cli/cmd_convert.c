@@ -8,7 +8,7 @@
 #include "number_file.h"
 
 /* What may be done to a model, in the order in which the command line asks for it. */
-enum step_kind { REFINE, INSERT, ELEVATE, SPLIT, BEZIER };
+enum step_kind { REFINE, INSERT, ELEVATE, REMOVE, SPLIT, BEZIER };
 
 struct step {
     enum step_kind kind;
@@ -26,13 +26,25 @@ struct request {
     pia_index samples, part;
 };
 
-enum { KEY_REFINE = 0x400, KEY_INSERT, KEY_ELEVATE, KEY_SPLIT, KEY_BEZIER, KEY_SAMPLES, KEY_PART, KEY_FORMAT, KEY_INPUT_FORMAT };
+enum {
+    KEY_REFINE = 0x400,
+    KEY_INSERT,
+    KEY_ELEVATE,
+    KEY_REMOVE,
+    KEY_SPLIT,
+    KEY_BEZIER,
+    KEY_SAMPLES,
+    KEY_PART,
+    KEY_FORMAT,
+    KEY_INPUT_FORMAT
+};
 
 static const struct argp_option options[] = {
     {NULL, 0, NULL, 0, "What is done, in the order given (D: is u: or v:, of a surface; default u):", 10},
     {"refine", KEY_REFINE, "[D:]N", 0, "N more knots in each span; a surface without D: in both directions", 0},
     {"insert", KEY_INSERT, "[D:]LIST|FILE", 0, "these knots more, such as 0.25,0.5", 0},
     {"elevate", KEY_ELEVATE, "[D:]K", 0, "degree raised by K; a surface without D: in both directions", 0},
+    {"remove", KEY_REMOVE, "BOUND", 0, "knots removed as long as no point moves by more than BOUND", 0},
     {"split", KEY_SPLIT, "[D:]T", 0, "split at the parameter T; both halves are written", 0},
     {"bezier", KEY_BEZIER, NULL, 0, "inside knots raised to full multiplicity: Bezier pieces", 0},
     {NULL, 0, NULL, 0, "Files:", 20},
@@ -69,6 +81,7 @@ static error_t parse(int key, char *arg, struct argp_state *state)
     case KEY_REFINE: return add_step(request, REFINE, "--refine", arg);
     case KEY_INSERT: return add_step(request, INSERT, "--insert", arg);
     case KEY_ELEVATE: return add_step(request, ELEVATE, "--elevate", arg);
+    case KEY_REMOVE: return add_step(request, REMOVE, "--remove", arg);
     case KEY_SPLIT: return add_step(request, SPLIT, "--split", arg);
     case KEY_BEZIER: return add_step(request, BEZIER, "--bezier", "");
     case ARGP_KEY_INIT: state->child_inputs[0] = request->session; return 0;
@@ -89,7 +102,8 @@ static const char manual[] = "A model in another format, and the same shape with
                              "  pia convert model.json -o model.igs\n"
                              "  pia convert model.json --samples 500 -o curve.csv\n"
                              "  pia convert model.json --elevate 1 --refine 2 -o finer.json\n"
-                             "  pia convert surface.json --split v:0.5 -o halves.json";
+                             "  pia convert surface.json --split v:0.5 -o halves.json\n"
+                             "  pia convert model.json --remove 1e-3 -o lean.json";
 static const struct argp argp = {options, parse, "MODEL -o FILE", manual, children, NULL, NULL};
 
 /* ---- Steps ---- */
@@ -174,6 +188,7 @@ static int apply(struct session *session, const struct step *step, const pia_mod
     const char *text = step->text;
     int direction = take_direction(&text), given = direction < 0 ? 0 : direction;
     pia_model_info info = {.struct_size = sizeof info};
+    double bound;
     pia_model_get_info(model, &info);
     if (given >= info.directions) return fail(EXIT_USAGE, "%s %s: a curve has no direction v", step->option, step->text);
     switch (step->kind) {
@@ -181,9 +196,12 @@ static int apply(struct session *session, const struct step *step, const pia_mod
     case ELEVATE: return change_directions(session, step, text, direction, model, &out[0]);
     case INSERT: return insert(session, text, given, model, &out[0]);
     case SPLIT: return split(session, step, text, given, model, out);
-    case BEZIER: break;
+    case BEZIER: return session_check(session, pia_model_bezier(session->context, model, &out[0]), NULL);
+    case REMOVE: break;
     }
-    return session_check(session, pia_model_bezier(session->context, model, &out[0]), NULL);
+    if (!text_is_number(text, &bound) || bound < 0)
+        return fail(EXIT_USAGE, "%s: '%s' is no bound; write a number such as 1e-3", step->option, text);
+    return session_check(session, pia_model_remove_knots(session->context, model, bound, &out[0], NULL), NULL);
 }
 
 /* One step on all models; `set` then holds the new ones. */
