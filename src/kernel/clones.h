@@ -5,7 +5,7 @@
 #ifndef PIA_KERNEL_CLONES_H
 #define PIA_KERNEL_CLONES_H
 
-#include <stddef.h>
+#include <stdint.h> /* tells __GLIBC__ */
 
 #define PIA_INLINE static inline __attribute__((always_inline))
 

@@ -1,6 +1,7 @@
 #include "gram.h"
 
 #include "band.h"
+#include "clones.h"
 #include "kernel.h"
 
 #include <math.h>
@@ -69,26 +70,36 @@ typedef struct product {
     double *y;
 } product;
 
-static inline void add_multiple(double factor, const double *x, pia_index count, double *y)
+PIA_INLINE void add_multiple(double factor, const double *x, pia_index count, double *y)
 {
     for (pia_index c = 0; c < count; c++) y[c] += factor * x[c];
 }
 
 /* Row i gathers from its neighbours on both sides, so that rows are independent and their order of summation is fixed. */
-static void multiply_row(const product *p, pia_index i, const double *x, double *y)
+PIA_INLINE void gather_row(const product *p, pia_index i, const double *x, pia_index after, double *y)
 {
     const pia_gram *g = p->gram;
     int cyclic = g->line->map == PIA_MAP_CYCLIC, width = g->width;
-    memset(y, 0, (size_t)p->after * sizeof *y);
+    for (pia_index c = 0; c < after; c++) y[c] = 0;
     for (int k = width; k >= 1; k--) {
         pia_index j = i - k;
         if (j < 0 && cyclic) j = (j % g->count + g->count) % g->count;
-        if (j >= 0) add_multiple(g->band[j * (width + 1) + k], x + j * p->after, p->after, y);
+        if (j >= 0) add_multiple(g->band[j * (width + 1) + k], x + j * after, after, y);
     }
     for (int k = 0; k <= width; k++) {
         pia_index j = i + k;
         if (j >= g->count && cyclic) j %= g->count;
-        if (j < g->count) add_multiple(g->band[i * (width + 1) + k], x + j * p->after, p->after, y);
+        if (j < g->count) add_multiple(g->band[i * (width + 1) + k], x + j * after, after, y);
+    }
+}
+
+static void multiply_row(const product *p, pia_index i, const double *x, double *y)
+{
+    switch (p->after) {
+    case 1: gather_row(p, i, x, 1, y); break;
+    case 2: gather_row(p, i, x, 2, y); break;
+    case 3: gather_row(p, i, x, 3, y); break;
+    default: gather_row(p, i, x, p->after, y); break;
     }
 }
 

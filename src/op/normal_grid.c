@@ -1,4 +1,5 @@
 /* The normal form of a full grid without weights: H = Gu (x) Gv, never formed, and b = A_u' (Q - origin) A_v in one pass. */
+#include "clones.h"
 #include "gram.h"
 #include "kernel.h"
 #include "normal.h"
@@ -26,8 +27,7 @@ typedef struct pass {
 } pass;
 
 /* One v-span of a data row: the products of its points with the degree + 1 functions of the span stay in registers. */
-static inline __attribute__((always_inline)) void contract_span(const pass *p, const double *points, pia_index s, int degree, int dim,
-                                                                double *to)
+PIA_INLINE void contract_span(const pass *p, const double *points, pia_index s, int degree, int dim, double *to)
 {
     const pia_collocation *v = p->v;
     const double *origin = p->targets->origin;
@@ -43,7 +43,7 @@ static inline __attribute__((always_inline)) void contract_span(const pass *p, c
     for (int k = 0; k < (degree + 1) * dim; k++) to[k] += sum[k];
 }
 
-static void contract_row(const pass *p, pia_index row, double *line)
+PIA_CLONES static void contract_row(const pass *p, pia_index row, double *line)
 {
     const pia_collocation *v = p->v;
     int degree = v->degree, dim = p->targets->dim;

@@ -1,5 +1,6 @@
 /* A grid: A = A_u (x) A_v, never formed. Values are contracted first along v, into an array [full control rows x data columns], then
  * along u, where the inner loop runs over whole contiguous data rows. */
+#include "clones.h"
 #include "kernel.h"
 #include "op.h"
 
@@ -48,7 +49,7 @@ static void along_v(void *work, pia_index chunk)
 }
 
 /* Data row `row` of A P into line [width]. */
-static void data_row(const pass *p, pia_index row, pia_index span, pia_index width, double *line)
+PIA_CLONES static void data_row(const pass *p, pia_index row, pia_index span, pia_index width, double *line)
 {
     double scratch[PIA_MAX_DEGREE + 1];
     const pia_collocation *u = p->u;
@@ -69,7 +70,7 @@ static void apply_chunk(void *work, pia_index chunk)
 }
 
 /* Differences of data row `row` from the model's values in `line`; written over them, or to the output. */
-static void difference_row(const pass *p, pia_index row, const double *line, pia_errors *e, double *worst)
+PIA_CLONES static void difference_row(const pass *p, pia_index row, const double *line, pia_errors *e, double *worst)
 {
     int dim = p->dim;
     for (pia_index s = 0; s < p->v->rows; s++) {
