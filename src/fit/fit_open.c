@@ -1,6 +1,7 @@
 /* The pipeline: data, choices, parameters, knots, operator, start, method. */
 #include "fit.h"
 
+#include "model.h"
 #include "options.h"
 
 #include <math.h>
@@ -162,6 +163,7 @@ static pia_status freeze_asked(pia_fit *fit)
 static pia_status open_stages(pia_fit *fit, const pia_data *data)
 {
     pia_status status = check_options(fit);
+    for (int d = 0; d < 2 && fit->options.start != NULL; d++) fit->options.closed[d] |= fit->options.start->periodic[d];
     if (status == PIA_OK) status = pia_fit_take_data(fit, data);
     if (status == PIA_OK) status = pia_fit_choose(fit);
     if (status == PIA_OK) status = pia_fit_parametrize(fit, data);

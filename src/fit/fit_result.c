@@ -37,7 +37,7 @@ static void describe(const pia_fit *fit, pia_report *report)
     report->control_count = 1;
     for (int d = 0; d < 2; d++) {
         report->degree[d] = d < fit->directions ? fit->degree[d] : 0;
-        report->control[d] = d >= fit->directions ? 1 : fit->closed[d] ? fit->op->count[d] : fit->full[d];
+        report->control[d] = pia_op_controls(fit->op, d);
         report->control_count *= report->control[d];
     }
 }

@@ -108,6 +108,13 @@ pia_errors pia_op_move(const pia_op *op, const double *x, const pia_targets *tar
     return errors;
 }
 
+pia_index pia_op_controls(const pia_op *op, int direction)
+{
+    if (direction >= op->directions) return 1;
+    const pia_collocation *line = op->line[direction];
+    return line != NULL && line->map == PIA_MAP_DOUBLED ? line->full : op->count[direction];
+}
+
 void pia_op_mask(const pia_op *op, double *x, int dim)
 {
     if (op->frozen == NULL) return;

@@ -85,6 +85,10 @@ pia_errors pia_op_residual(const pia_op *op, const double *x, const pia_targets 
  * unchanged. The errors are those of x. */
 pia_errors pia_op_move(const pia_op *op, const double *x, const pia_targets *targets, double factor, double *next);
 
+/* Control points of a direction as people count them: with the doubled ends of the 2004 format, without the wrapped copies of closed
+ * directions; 1 for a direction that a curve has not. */
+pia_index pia_op_controls(const pia_op *op, int direction);
+
 /* Sets frozen unknowns to zero in x [cols x dim]. */
 void pia_op_mask(const pia_op *op, double *x, int dim);
 /* The unknown behind a full control point (row-major index). */

@@ -90,7 +90,7 @@ static pia_status add_trace(pia_solve *solve)
 {
     const pia_iterate *iterate = solve->iterate;
     pia_trace_row row = {.iteration = iterate->iteration,
-                         .control_count = iterate->op->cols,
+                         .control_count = pia_op_controls(iterate->op, 0) * pia_op_controls(iterate->op, 1),
                          .max_error = iterate->errors.max,
                          .rms_error = iterate->errors.count > 0 ? sqrt(iterate->errors.sum_squares / (double)iterate->errors.count) : 0,
                          .adjust_max = iterate->iteration > 0 ? iterate->adjust_max : 0,
