@@ -128,6 +128,23 @@ static void data(walk *w, pia_fit *fit)
     fit->points = fit->own_points;
 }
 
+/* The robust loss; the weights for the operator follow from it and the given ones. */
+static void robust(walk *w, pia_fit *fit)
+{
+    pia_robust *r = &fit->robust;
+    pia_index v[5] = {r->loss, r->convex, r->settled, r->round, r->outliers};
+    array(w, "robust_counts", PIA_SECTION_INDEX, v, 5);
+    array(w, "robust", PIA_SECTION_DOUBLE, &r->tuning, 1);
+    optional(w, "robust_weight", PIA_SECTION_DOUBLE, &r->weight, fit->rows);
+    if (w->writer != NULL || w->status != PIA_OK) return;
+    r->loss = v[0] == PIA_LOSS_HUBER ? PIA_LOSS_HUBER : v[0] == PIA_LOSS_TUKEY ? PIA_LOSS_TUKEY : PIA_LOSS_NONE;
+    r->convex = (int)v[1];
+    r->settled = (int)v[2];
+    r->round = v[3];
+    r->outliers = r->weight != NULL ? v[4] : 0;
+    r->rows = r->weight != NULL ? fit->rows : 0;
+}
+
 static void rules(walk *w, pia_fit *fit)
 {
     pia_rules *r = &fit->solve.rules;
@@ -334,6 +351,7 @@ pia_status pia_fit_save(pia_fit *fit, const char *path)
     pia_checkpoint_begin(&writer, output);
     shape(&w, fit);
     data(&w, fit);
+    robust(&w, fit);
     rules(&w, fit);
     constraints(&w, fit);
     progress(&w, fit);
@@ -405,6 +423,7 @@ static pia_status rebuild(walk *w, pia_fit *fit)
     if (w->status == PIA_OK) w->status = check_shape(w->context, fit);
     if (w->status == PIA_OK) w->status = get_records(w, fit);
     data(w, fit);
+    robust(w, fit);
     rules(w, fit);
     if (w->status == PIA_OK &&
         (fit->own_points == NULL || fit->parameter[0] == NULL || fit->knots[0] == NULL ||

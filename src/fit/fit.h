@@ -5,7 +5,7 @@
  *   fit_knots.c       knots and operators                            fit_edit.c     edits of a running fit
  *   fit_foot.c        parameters moved to foot points                fit_call.c     the one call
  *   fit_constrain.c   points and derivatives met exactly             fit_outcome.c  what is worth saying of the result
- *   refine*.c         knots for a tolerance */
+ *   fit_robust.c      weights of a robust loss                       refine*.c      knots for a tolerance */
 #ifndef PIA_FIT_FIT_H
 #define PIA_FIT_FIT_H
 
@@ -22,6 +22,18 @@ typedef struct pia_fit_constraint {
     double *value;        /* [dim]; NULL: the data point */
     int released;
 } pia_fit_constraint;
+
+/* A robust loss and the weights it gives. */
+typedef struct pia_robust {
+    enum { PIA_LOSS_NONE, PIA_LOSS_HUBER, PIA_LOSS_TUKEY } loss;
+    double tuning;
+    int convex;                /* 1: Tukey's loss is still led by Huber's */
+    int settled;               /* 1: the weights are those of the current iterate */
+    pia_index round, outliers; /* rounds done; rows of less than half weight */
+    pia_index rows;
+    double *weight;  /* [rows] factor in [0, 1] on the given weights */
+    double *product; /* [rows] both, for the operator */
+} pia_robust;
 
 struct pia_fit {
     pia_context *context;
@@ -66,6 +78,7 @@ struct pia_fit {
     pia_index constraint_count, constraint_room;
     pia_solve solve;
     pia_values method_values, limiter_values;
+    pia_robust robust;
     pia_notes notes, outcome; /* what was done; what is to be said of the current result, after the other notes */
     int refining;             /* knots are still to be found for a tolerance */
     pia_index round;          /* rounds of growing, sparing, correcting */
@@ -108,9 +121,23 @@ pia_status pia_fit_restart(pia_fit *fit);
 /* Adds a note; memory that is too short for a note is not an error. */
 void pia_fit_note_add(pia_fit *fit, const char *format, ...) __attribute__((format(printf, 2, 3)));
 
-/* The outcome anew: inflections where a limiter ran. Memory that is too short for a note is not an error. */
+/* The robust loss of the options; then its weights for the current rows, 1 where there are none yet, and their end. */
+pia_status pia_fit_choose_loss(pia_fit *fit);
+pia_status pia_fit_take_loss(pia_fit *fit);
+void pia_fit_robust_close(pia_fit *fit);
+/* Weights [rows] for the operator, NULL: 1; they follow the given ones and those of the loss when mixed. */
+const double *pia_fit_row_weights(const pia_fit *fit);
+void pia_fit_mix_weights(pia_fit *fit);
+/* As pia_solve_step, in rounds between which rows are weighed anew. */
+pia_status pia_fit_robust_step(pia_fit *fit, pia_index iterations);
+void pia_fit_describe_outliers(pia_fit *fit);
+/* Points or weights of these rows have changed: normal form and constraints follow. */
+pia_status pia_fit_refresh(pia_fit *fit, pia_index first_row, pia_index last_row);
+
+enum { PIA_LISTED = 20 }; /* indices that a note lists at most */
+/* The outcome anew: inflections where a limiter ran, outliers. Memory that is too short for a note is not an error. */
 void pia_fit_conclude(pia_fit *fit);
-/* A note of the outcome: "COUNT TEXT: ", then the first twenty of list [count]. */
+/* A note of the outcome: "COUNT TEXT: ", then the first PIA_LISTED of list [count]. */
 void pia_fit_outcome_add(pia_fit *fit, const char *text, const pia_index *list, pia_index count);
 /* A model of the current iterate without what it came from. */
 pia_status pia_fit_bare_model(pia_fit *fit, pia_model **out);

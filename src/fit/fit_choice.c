@@ -55,8 +55,8 @@ static int wants_least_squares(const pia_fit *fit)
         if (o->control[d] != PIA_AUTO && o->control[d] != count) fewer = 1;
         if (o->knots[d] != NULL && o->knot_count[d] != count + o->degree[d] + 1) fewer = 1;
     }
-    return fewer || fit->refining || fit->kind == PIA_SCATTERED || fit->has_holes || fit->weights != NULL || o->interpolate_count > 0 ||
-           o->constraint_count > 0;
+    return fewer || fit->refining || fit->kind == PIA_SCATTERED || fit->has_holes || fit->weights != NULL || o->robust != NULL ||
+           o->interpolate_count > 0 || o->constraint_count > 0;
 }
 
 /* A tolerance without control points, knots or a start asks for the knots as well; interpolating methods only stop at it. */
@@ -210,6 +210,7 @@ pia_status pia_fit_choose(pia_fit *fit)
                             "a function graph cannot be closed; fit the values with given parameters instead");
     }
     pia_status status = choose_method(fit);
+    if (status == PIA_OK) status = pia_fit_choose_loss(fit);
     if (status == PIA_OK) status = choose_limiter(fit);
     if (status == PIA_OK) status = choose_placement(fit);
     const char *name = fit->options.parametrization;

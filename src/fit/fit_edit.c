@@ -10,19 +10,25 @@
 /* After an edit the errors are unknown, and history of accelerated methods no longer fits the problem. */
 pia_status pia_fit_restart(pia_fit *fit)
 {
+    fit->robust.settled = fit->robust.round = 0;
     return pia_solve_restart(&fit->solve, &fit->method_values, &fit->limiter_values);
 }
 
-/* The normal form and the constraints after a change of one row. */
-static pia_status refresh(pia_fit *fit, pia_index row)
+pia_status pia_fit_refresh(pia_fit *fit, pia_index first_row, pia_index last_row)
 {
     pia_iterate *iterate = &fit->iterate;
-    pia_status status = PIA_OK;
+    pia_fit_mix_weights(fit);
     if (fit->normal != NULL) {
-        pia_normal_refresh(fit->normal, &iterate->targets, row, row);
+        pia_normal_refresh(fit->normal, &iterate->targets, first_row, last_row);
         iterate->right_norm = sqrt(pia_iterate_dot(iterate, fit->normal->right, fit->normal->right));
     }
-    if (fit->constraint_count > 0) status = pia_fit_bind(fit);
+    return fit->constraint_count > 0 ? pia_fit_bind(fit) : PIA_OK;
+}
+
+/* After a change of one row. */
+static pia_status refresh(pia_fit *fit, pia_index row)
+{
+    pia_status status = pia_fit_refresh(fit, row, row);
     return status == PIA_OK ? pia_fit_restart(fit) : status;
 }
 

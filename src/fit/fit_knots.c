@@ -242,18 +242,19 @@ static pia_status check_held(pia_fit *fit, int d)
 
 pia_status pia_fit_operate(pia_fit *fit)
 {
-    pia_status status = PIA_OK;
+    pia_status status = pia_fit_take_loss(fit);
     int keep_values = (fit->solve.method->needs & PIA_NEEDS_ROWS) != 0 || fit->kind == PIA_GRID;
+    if (status != PIA_OK) return status;
     if (fit->kind == PIA_SCATTERED)
         return pia_op_scatter_open(fit->context, fit->degree, fit->map, (const double *const *)fit->knots, fit->full, fit->parameter[0],
-                                   fit->rows, fit->weights, fit->dim, &fit->op);
+                                   fit->rows, pia_fit_row_weights(fit), fit->dim, &fit->op);
     for (int d = 0; d < fit->directions && status == PIA_OK; d++) {
         status = pia_collocation_open(fit->context, fit->degree[d], fit->map[d], cyclic_offset(fit, d), fit->knots[d], fit->full[d],
                                       fit->parameter[d], fit->count[d], keep_values, &fit->line[d]);
         if (status == PIA_OK && fit->placement == NULL) status = check_held(fit, d);
     }
     if (status != PIA_OK) return status;
-    const double *weights = fit->square ? NULL : fit->weights;
+    const double *weights = fit->square ? NULL : pia_fit_row_weights(fit);
     if (fit->directions == 1) return pia_op_curve_open(fit->context, &fit->line[0], weights, fit->dim, &fit->op);
     return pia_op_grid_open(fit->context, &fit->line[0], &fit->line[1], weights, fit->dim, &fit->op);
 }

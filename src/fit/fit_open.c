@@ -231,6 +231,7 @@ void pia_fit_close(pia_fit *fit)
     pia_give(context, fit->row);
     pia_give(context, fit->dropped);
     pia_give(context, fit->weights);
+    pia_fit_robust_close(fit);
     pia_notes_clear(pia_memory_of(context), &fit->notes);
     pia_notes_clear(pia_memory_of(context), &fit->outcome);
     pia_give(context, fit);

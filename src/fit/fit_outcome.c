@@ -6,15 +6,13 @@
 #include <stdio.h>
 #include <string.h>
 
-enum { LISTED = 20 };
-
 void pia_fit_outcome_add(pia_fit *fit, const char *text, const pia_index *list, pia_index count)
 {
     char line[480];
     int used = snprintf(line, sizeof line, "%lld %s:", (long long)count, text);
-    for (pia_index i = 0; i < count && i < LISTED && used < (int)sizeof line - 32; i++)
+    for (pia_index i = 0; i < count && i < PIA_LISTED && used < (int)sizeof line - 32; i++)
         used += snprintf(line + used, sizeof line - (size_t)used, "%s %lld", i > 0 ? "," : "", (long long)list[i]);
-    pia_note_add(pia_memory_of(fit->context), &fit->outcome, "%s%s", line, count > LISTED ? ", ..." : "");
+    pia_note_add(pia_memory_of(fit->context), &fit->outcome, "%s%s", line, count > PIA_LISTED ? ", ..." : "");
 }
 
 /* The guarantee of the limiters is for the polygon: inflections are counted on data, polygon and curve, and it is said whether the
@@ -47,4 +45,5 @@ void pia_fit_conclude(pia_fit *fit)
 {
     pia_notes_clear(pia_memory_of(fit->context), &fit->outcome);
     describe_shape(fit);
+    pia_fit_describe_outliers(fit);
 }

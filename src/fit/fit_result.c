@@ -9,11 +9,16 @@
 #include <math.h>
 #include <string.h>
 
+static pia_status step(pia_fit *fit, pia_index iterations)
+{
+    return fit->robust.loss != PIA_LOSS_NONE ? pia_fit_robust_step(fit, iterations) : pia_solve_step(&fit->solve, iterations);
+}
+
 pia_status pia_fit_step(pia_fit *fit, pia_index iterations, pia_report *report)
 {
     if (iterations < 0) return pia_fail(fit->context, PIA_E_ARGUMENT, "%lld iterations are not a count", (long long)iterations);
     int refine = fit->refining && fit->solve.stop == PIA_STOP_NONE;
-    pia_status status = refine ? pia_refine_curve(fit) : pia_solve_step(&fit->solve, iterations);
+    pia_status status = refine ? pia_refine_curve(fit) : step(fit, iterations);
     if (status == PIA_OK && fit->solve.stop != PIA_STOP_NONE) pia_fit_conclude(fit);
     if (status == PIA_OK && report != NULL) status = pia_fit_report(fit, report);
     return status;
@@ -67,6 +72,7 @@ pia_status pia_fit_report(pia_fit *fit, pia_report *report)
     full.start_error = isnan(fit->solve.start_error) ? full.max_error : fit->solve.start_error;
     full.rate = fit->solve.rate;
     full.unsupported_count = iterate->normal != NULL ? iterate->normal->weak : 0;
+    full.outlier_count = fit->robust.outliers;
     full.round_count = fit->round;
     full.seconds = fit->seconds + fit->solve.seconds;
     pia_options_write(report, &full, sizeof full);
