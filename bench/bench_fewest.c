@@ -35,16 +35,21 @@ typedef struct curve {
 } curve;
 
 typedef struct outcome {
-    pia_index control; /* 0: none */
-    double seconds, error;
+    pia_index control;                /* 0: none */
+    double seconds, processor, error; /* processor: of all threads */
     int reached;
 } outcome;
 
-static double now(void)
+static double seconds_of(clockid_t clock)
 {
     struct timespec t;
-    clock_gettime(CLOCK_MONOTONIC, &t);
+    clock_gettime(clock, &t);
     return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
+}
+
+static double now(void)
+{
+    return seconds_of(CLOCK_MONOTONIC);
 }
 
 /* ---- the cases ---- */
@@ -140,12 +145,14 @@ static outcome ours(pia_context *context, const settings *s, const curve *c, dou
     options.tolerance = tolerance;
     options.measure_distance = s->distance;
     options.time_limit = s->limit;
-    double start = now();
+    double start = now(), used = seconds_of(CLOCK_PROCESS_CPUTIME_ID);
     if (pia_fit_data(context, &data, &options, &model, &report) != PIA_OK) {
         fprintf(stderr, "%s: %s\n", c->name, pia_message(context));
         return (outcome){0};
     }
-    outcome out = measure(context, c, model, tolerance, (outcome){report.control_count, now() - start, 0, 0});
+    outcome out = {.control = report.control_count, .seconds = now() - start};
+    out.processor = seconds_of(CLOCK_PROCESS_CPUTIME_ID) - used;
+    out = measure(context, c, model, tolerance, out);
     if (report.reached == 1 && !out.reached) printf("WRONG: %s says reached at %g but deviates %g\n", c->name, tolerance, out.error);
     pia_model_destroy(model);
     return out;
@@ -249,7 +256,7 @@ typedef struct totals {
     double ratio[MAX_CASES];
     int ratios, cases, reached, peer_reached[PEERS];
     double our_time[PEERS], peer_time[PEERS]; /* over the cases that both reached */
-    double seconds;
+    double seconds, processor, controls;
 } totals;
 
 static void print_cell(const outcome *o)
@@ -268,6 +275,8 @@ static void run_case(pia_context *context, const settings *s, const curve *c, do
     t->cases++;
     t->reached += mine.reached;
     t->seconds += mine.seconds;
+    t->processor += mine.processor;
+    if (mine.control > 0) t->controls += log((double)mine.control);
     for (int peer = 0; peer < PEERS; peer++) {
         if ((s->peers >> peer & 1) == 0) continue;
         outcome o = theirs(context, s, peer, c, tolerance * c->extent);
@@ -288,7 +297,8 @@ static void run_case(pia_context *context, const settings *s, const curve *c, do
 
 static void print_totals(const settings *s, totals *t)
 {
-    printf("%d cases, %d reached, %.3f s\n", t->cases, t->reached, t->seconds);
+    printf("%d cases, %d reached, %.3f s, %.3f s of processors, geometric mean of control points %.3f\n", t->cases, t->reached,
+           t->seconds, t->processor, exp(t->controls / t->cases));
     for (int peer = 0; peer < PEERS; peer++)
         if ((s->peers >> peer & 1) != 0)
             printf("%-6s reached %d; time over these cases %.3f s, ours %.3f s, ratio %.2f\n", peer_names[peer], t->peer_reached[peer],
