@@ -10,7 +10,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { REACH = 4, LAWSON_ROUNDS = 12, MAX_SWEEPS = 40, MAX_PASSES = 12, SEGMENT = 96, BATCH = 16 };
+enum { REACH = 2, LAWSON_ROUNDS = 6, MAX_SWEEPS = 40, MAX_PASSES = 12, SEGMENT = 96, BATCH = 16 };
 
 typedef struct candidate {
     double cost, knot;
@@ -56,19 +56,16 @@ static double knot_cost(const pia_draft *draft, pia_index j)
     return left + right > 0 ? sqrt(square) * pow(left * right / (left + right), draft->degree) : 0;
 }
 
-/* Tries to do with one knot instead of two. */
+/* Tries to do with one knot instead of two, nearer to the one that does more. */
 static int merge_knots(pia_draft *draft, pia_index j)
 {
-    static const double share[] = {0.5, 0.25, 0.75};
     pia_index first, end;
     pia_draft_inside(draft, &first, &end);
     if (j + 1 >= end && !draft->cyclic) return 0;
     double here = pia_draft_knot(draft, j), next = pia_draft_knot(draft, j + 1);
-    for (size_t k = 0; k < sizeof share / sizeof *share; k++) {
-        double knot = here + share[k] * (next - here);
-        if (pia_draft_replace(draft, j, 2, &knot, 1, REACH, LAWSON_ROUNDS)) return 1;
-    }
-    return 0;
+    double left = knot_cost(draft, j), right = knot_cost(draft, j + 1), share = left + right > 0 ? right / (left + right) : 0.5;
+    double knot = here + fmin(fmax(share, 0.25), 0.75) * (next - here);
+    return pia_draft_replace(draft, j, 2, &knot, 1, REACH, LAWSON_ROUNDS);
 }
 
 /* One sweep over all inside knots, the cheapest first. order has room for all knots. Returns how many knots went. */
@@ -101,6 +98,7 @@ typedef struct pass {
     double *knots;             /* open: [count + degree + 1]; closed: one period [count] */
     double *control;           /* [count x dim] */
     unsigned char *mark;       /* as knots */
+    unsigned char *critical;   /* [rows] as in a draft; segments see different rows */
     pia_index segments, batch; /* segments of this pass; the first of those at work */
     pia_index offset;          /* closed: control point at which the first segment begins */
     pia_draft *draft;          /* [segments] */
@@ -143,6 +141,7 @@ static void cut_out(pass *s, int shifted, double *store, unsigned char *marks)
         d->knots = store;
         d->control = store + knots;
         d->mark = marks;
+        d->critical = s->critical;
         store += knots + count * dim;
         marks += knots;
         for (pia_index i = 0; i < knots; i++) d->knots[i] = knot_of(s, s->offset + begin + i);
@@ -234,7 +233,8 @@ static pia_status open_pass(pia_fit *fit, pass *s)
     s->knots = pia_take(context, knots, sizeof(double));
     s->control = pia_take(context, count * s->dim, sizeof(double));
     s->mark = pia_take_zero(context, knots, 1);
-    if (s->knots == NULL || s->control == NULL || s->mark == NULL) return PIA_E_MEMORY;
+    s->critical = pia_take_zero(context, fit->rows, 1);
+    if (s->knots == NULL || s->control == NULL || s->mark == NULL || s->critical == NULL) return PIA_E_MEMORY;
     memcpy(s->knots, fit->knots[0], (size_t)knots * sizeof(double));
     memcpy(s->control, fit->iterate.points, (size_t)(count * s->dim) * sizeof(double));
     return PIA_OK;
@@ -260,5 +260,6 @@ pia_status pia_refine_spare(pia_fit *fit, pia_index *spared)
     pia_give(fit->context, s.knots);
     pia_give(fit->context, s.control);
     pia_give(fit->context, s.mark);
+    pia_give(fit->context, s.critical);
     return status;
 }

@@ -28,7 +28,8 @@ typedef struct pia_draft {
     double *knots;       /* [count + degree + 1]; cyclic: one period [count] */
     double *control;     /* [count x dim], relative to origin */
     unsigned char *mark; /* [as knots] what was tried in vain with a knot since something changed near it, and knots that are kept */
-    double *work;        /* [pia_draft_room] */
+    unsigned char *critical; /* [data->rows] 1: a row that has decided a trial, which later trials look at first */
+    double *work;            /* [pia_draft_room] */
 } pia_draft;
 
 /* Doubles of work space that trials of this reach need. */

@@ -9,9 +9,10 @@
 #include <math.h>
 #include <string.h>
 
-/* SAMPLE: rows of a span to begin with. GROUPS: parts of a span of which each may send its worst row. SPARSE: rows a span up to which
- * all rows are taken at once. POLYNOMIAL: degree up to which Taylor polynomials around the middle of a span keep their digits. */
-enum { SAMPLE = 8, GROUPS = 4, EXCHANGES = 6, SPARSE = 16, POLYNOMIAL = 7, BLOCK = 64 };
+/* SAMPLE: rows of a span to begin with, beside at most REMEMBERED critical ones. GROUPS: parts of a span of which each may send its
+ * worst row. SPARSE: rows a span up to which all rows are taken at once. POLYNOMIAL: degree up to which Taylor polynomials around the
+ * middle of a span keep their digits. */
+enum { SAMPLE = 5, REMEMBERED = 16, GROUPS = 4, EXCHANGES = 6, SPARSE = 16, POLYNOMIAL = 7, BLOCK = 64 };
 
 /* What counts as kept, a little below 1: control points are rounded when they are put back. */
 static const double KEPT = 1 - 1e-9;
@@ -29,7 +30,7 @@ typedef struct rows {
 pia_index pia_draft_room(int degree, int dim, int reach)
 {
     pia_index spans = 2 * reach + 2 * degree + 4 + PIA_WINDOW_SHORT;
-    return spans * (SAMPLE + GROUPS * EXCHANGES) * (degree + 1 + dim + 3);
+    return spans * (SAMPLE + REMEMBERED + GROUPS * EXCHANGES) * (degree + 1 + dim + 3);
 }
 
 static rows rows_in(const pia_draft *draft, pia_index room)
@@ -70,15 +71,33 @@ static void find_spans(const pia_draft *draft, const pia_window *w, pia_index *b
     for (int s = spans - 1; s > 0 && !(w->knots[p + s] < w->knots[p + s + 1]); s--) begin[s] = end;
 }
 
+/* Critical rows among the unrolled rows from .. to - 1, every k-th where there are too many. */
+static void add_critical(const pia_draft *draft, const pia_window *w, int span, pia_index from, pia_index to, rows *r)
+{
+    pia_index found[8 * REMEMBERED], count = 0, at;
+    for (pia_index row = from; row < to && count < 8 * REMEMBERED;) {
+        pia_draft_row(draft->data, row, &at);
+        pia_index left = to - row < draft->data->rows - at ? to - row : draft->data->rows - at;
+        const unsigned char *hit = memchr(draft->critical + at, 1, (size_t)left);
+        if (hit == NULL) {
+            row += left;
+            continue;
+        }
+        row += hit - (draft->critical + at);
+        found[count++] = row++;
+    }
+    pia_index step = (count + REMEMBERED - 1) / REMEMBERED;
+    for (pia_index k = 0; k < count; k += step) add_row(draft, w, span, found[k], 1, r);
+}
+
 static void sample_rows(const pia_draft *draft, const pia_window *w, const pia_index *begin, int all, rows *r)
 {
     int p = draft->degree;
     for (int s = 0; s < w->count - p; s++) {
         pia_index count = begin[s + 1] - begin[s], taken = all || count < SAMPLE ? count : SAMPLE;
-        for (pia_index k = 0; k < taken; k++) {
-            pia_index offset = taken == count ? k : k * (count - 1) / (taken - 1);
-            add_row(draft, w, p + s, begin[s] + offset, 1, r);
-        }
+        for (pia_index k = 0; k < taken; k++)
+            add_row(draft, w, p + s, begin[s] + (taken == count ? k : k * (count - 1) / (taken - 1)), 1, r);
+        if (taken < count) add_critical(draft, w, p + s, begin[s], begin[s + 1], r);
     }
 }
 
@@ -305,7 +324,11 @@ static double exchange(const pia_draft *draft, const pia_window *w, const pia_in
                 worst_of(draft, w, &c, p + s, begin[s] + count * group / GROUPS, begin[s] + count * (group + 1) / GROUPS, &row);
             double ratio = sqrt(fmax(square, 0));
             if (!(ratio <= worst)) worst = ratio;
-            if (ratio > KEPT && r->count < r->room) add_row(draft, w, p + s, row, ratio, r);
+            if (!(ratio > KEPT) || r->count >= r->room) continue;
+            add_row(draft, w, p + s, row, ratio, r);
+            pia_index at;
+            pia_draft_row(draft->data, row, &at);
+            draft->critical[at] = 1;
         }
     }
     return worst;
@@ -315,7 +338,7 @@ double pia_window_fit(pia_draft *draft, pia_window *w, int rounds)
 {
     int p = draft->degree, spans = w->count - p, all = w->rows <= (pia_index)spans * SPARSE;
     pia_index begin[PIA_WINDOW_CONTROL + 1];
-    rows r = rows_in(draft, (pia_index)spans * (SAMPLE + GROUPS * EXCHANGES));
+    rows r = rows_in(draft, (pia_index)spans * (SAMPLE + REMEMBERED + GROUPS * EXCHANGES));
     find_spans(draft, w, begin);
     sample_rows(draft, w, begin, all, &r);
     for (int k = 0; k < EXCHANGES; k++) {
