@@ -241,13 +241,14 @@ static void progress(walk *w, pia_fit *fit)
     pia_solve *s = &fit->solve;
     pia_iterate *it = &fit->iterate;
     pia_index size = fit->op->cols * fit->dim;
-    pia_index v[5] = {it->iteration, (pia_index)s->stop, s->best_iteration, s->first_iteration, s->blocked};
-    double r[9] = {s->seconds,    s->start_error, s->rate,        s->safe_error,        s->last_error,
-                   s->best_error, it->damping,    it->adjust_max, it->relative_gradient};
+    pia_index v[7] = {it->iteration, (pia_index)s->stop,  s->best_iteration, s->first_iteration,
+                      s->blocked,    s->window_iteration, s->standing};
+    double r[10] = {s->seconds,    s->start_error, s->rate,        s->safe_error,         s->last_error,
+                    s->best_error, it->damping,    it->adjust_max, it->relative_gradient, s->window_error};
     array(w, "points_now", PIA_SECTION_DOUBLE, it->points, size);
     optional(w, "safe", PIA_SECTION_DOUBLE, &s->safe, size);
-    array(w, "loop_counts", PIA_SECTION_INDEX, v, 5);
-    array(w, "loop", PIA_SECTION_DOUBLE, r, 9);
+    array(w, "loop_counts", PIA_SECTION_INDEX, v, 7);
+    array(w, "loop", PIA_SECTION_DOUBLE, r, 10);
     if (s->method->history != NULL && s->method_state != NULL) s->method->history(it, s->method_state, put_history, w);
     if (s->limiter != NULL && s->limiter->history != NULL) s->limiter->history(it, s->limiter_state, put_limit_history, w);
     if (w->writer != NULL || w->status != PIA_OK) return;
@@ -256,6 +257,8 @@ static void progress(walk *w, pia_fit *fit)
     s->best_iteration = v[2];
     s->first_iteration = v[3];
     s->blocked = v[4];
+    s->window_iteration = v[5];
+    s->standing = (int)v[6];
     s->seconds = r[0];
     s->start_error = r[1];
     s->rate = r[2];
@@ -265,6 +268,7 @@ static void progress(walk *w, pia_fit *fit)
     it->damping = r[6];
     it->adjust_max = r[7];
     it->relative_gradient = r[8];
+    s->window_error = r[9];
     it->errors_known = 0;
 }
 

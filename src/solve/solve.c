@@ -11,9 +11,10 @@
 
 enum { MAX_HALVINGS = 24 };
 
-/* A step is taken back when the error exceeds this many times the smallest one seen: PIA on uneven data may grow for a while before it
- * falls, and only real divergence gets here. */
-static const double GROWTH = 8;
+/* A step is taken back when the error exceeds this many times the smallest one seen. Collocation matrices of high degree are far from
+ * normal: errors may grow thirty-fold for hundreds of steps before they fall, and shorter steps would only stretch that. Real
+ * divergence gets past this bound soon. */
+static const double GROWTH = 1e4;
 
 double pia_seconds(void)
 {
@@ -42,7 +43,9 @@ pia_status pia_solve_begin(pia_solve *solve, const pia_values *method_values, co
     solve->rate = solve->last_error = solve->best_error = NAN;
     solve->safe_error = INFINITY;
     solve->blocked = 0;
-    solve->best_iteration = iterate->iteration;
+    solve->best_iteration = solve->window_iteration = iterate->iteration;
+    solve->window_error = INFINITY;
+    solve->standing = 0;
     if (!solve->begun) solve->start_error = NAN;
     solve->stop = PIA_STOP_NONE;
     solve->first_iteration = iterate->iteration;
@@ -118,6 +121,11 @@ static pia_status note_errors(pia_solve *solve)
     if (!(error >= 0.999 * solve->best_error)) {
         solve->best_error = error;
         solve->best_iteration = iterate->iteration;
+    }
+    if (iterate->iteration - solve->window_iteration >= PIA_PATIENCE) {
+        solve->standing = fabs(error - solve->window_error) < 0.01 * error;
+        solve->window_error = error;
+        solve->window_iteration = iterate->iteration;
     }
     pia_index every = solve->rules.trace_every;
     return every > 0 && iterate->iteration % every == 0 ? add_trace(solve) : PIA_OK;

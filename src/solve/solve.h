@@ -8,6 +8,8 @@
 #include "method.h"
 #include "trace.h"
 
+enum { PIA_PATIENCE = 400 };
+
 typedef struct pia_rules {
     double tolerance;            /* largest deviation; 0: none */
     pia_index iterations;        /* most updates since the start or the last edit */
@@ -36,6 +38,9 @@ typedef struct pia_solve {
     double last_error;
     double best_error; /* smallest error so far, and when it was reached */
     pia_index best_iteration;
+    double window_error; /* the error when the current window of PIA_PATIENCE iterations began */
+    pia_index window_iteration;
+    int standing;              /* the last window changed the error by less than a hundredth */
     pia_index first_iteration; /* where it began, or was last edited: the count that max_iterations limits starts here */
     int begun;
 } pia_solve;

@@ -1,6 +1,13 @@
 #include "stop.h"
 
-enum { PATIENCE = 400 }; /* iterations without a thousandth of progress before an interpolation counts as stalled */
+/* An interpolation is stuck when it has found nothing better for long, and its errors are rounding or have stopped moving. Errors of
+ * high degree may rise and fall for hundreds of steps before they reach a new low. */
+static int is_stuck(const pia_solve *solve)
+{
+    const pia_iterate *iterate = solve->iterate;
+    if (!iterate->square || !iterate->errors_known || iterate->iteration - solve->best_iteration < PIA_PATIENCE) return 0;
+    return solve->standing || iterate->errors.max <= 1e-14 * iterate->extent;
+}
 
 int pia_stop_needs_errors(const pia_solve *solve)
 {
@@ -27,8 +34,7 @@ pia_stop pia_stop_after(const pia_solve *solve)
     if (rules->tolerance > 0 && iterate->errors_known && iterate->errors.max <= rules->tolerance) return PIA_STOP_TOLERANCE;
     if (rules->gradient > 0 && iterate->relative_gradient <= rules->gradient) return PIA_STOP_GRADIENT;
     if (iterate->stalled) return PIA_STOP_STALLED;
-    if (iterate->square && rules->change > 0 && iterate->errors_known && iterate->iteration - solve->best_iteration >= PATIENCE)
-        return PIA_STOP_STALLED;
+    if (rules->change > 0 && is_stuck(solve)) return PIA_STOP_STALLED;
     if (rules->change > 0 && iterate->adjust_max <= rules->change) return PIA_STOP_CHANGE;
     return PIA_STOP_NONE;
 }

