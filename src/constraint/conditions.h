@@ -19,7 +19,7 @@ enum { PIA_ORIGIN_SIZE = 96 };
 typedef struct pia_schur {
     pia_index size, rank;
     int dim;             /* right-hand sides: the components of the points, or 1 when conditions are scalars */
-    double *matrix;      /* [size x size] S, then its factor */
+    double *matrix;      /* [size x size] lower triangle of S, then its factor */
     pia_index *order;    /* [size] */
     double *x, *scratch; /* [size x dim] */
 } pia_schur;
@@ -54,7 +54,7 @@ void pia_row_across(const pia_constraints *c, pia_index i, double *value);
 /* Room for S over the conditions of c. Errors: PIA_E_MEMORY, PIA_E_SIZE. */
 pia_status pia_schur_open(const pia_constraints *c, pia_schur *out);
 void pia_schur_close(const pia_constraints *c, pia_schur *s);
-/* The columns of row j, from column [count] = B M b_j. */
+/* The lower triangle's part in the columns of row j, from column [count] = B M b_j, of which entries j and later are used. */
 void pia_schur_fill(const pia_constraints *c, pia_schur *s, pia_index j, const double *column);
 /* Cholesky with pivoting; pivots below rtol of the largest end it. */
 void pia_schur_factor(pia_schur *s, double rtol);
@@ -75,7 +75,7 @@ void pia_conditions_scatter(const pia_constraints *c, const double *x, double *r
 pia_status pia_conditions_open(pia_constraints *c);
 void pia_conditions_keep(pia_constraints *c, const unsigned char *keep);
 
-/* Finds conditions that depend on others, drops them with a note, refuses contradictions. */
+/* Finds conditions that depend on others, drops them with a note, refuses contradictions. Leaves the metric D = 1. */
 pia_status pia_constraints_clean(pia_constraints *c, const double *points, pia_notes *notes);
 
 #endif

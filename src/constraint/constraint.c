@@ -165,8 +165,7 @@ pia_status pia_constraints_build(const pia_op *op, const pia_targets *targets, c
     c->extent = extent;
     c->count = count;
     pia_status status = fill(c, targets, list, row_name);
-    if (status == PIA_OK && !soft) status = pia_constraints_clean(c, points, notes);
-    if (status == PIA_OK) status = pia_constraints_metric(c, NULL);
+    if (status == PIA_OK) status = soft ? pia_constraints_metric(c, NULL) : pia_constraints_clean(c, points, notes);
     if (status == PIA_OK)
         *out = c;
     else

@@ -42,7 +42,7 @@ pia_status pia_schur_of_normal(const pia_constraints *c, const pia_normal *norma
         for (int k = 0; k < block; k++) put_column(c, j + k, k, y);
         pia_op_mask(c->op, y, dim);
         solve_held(c, normal, y, y + size);
-        for (pia_index i = 0; i < c->count; i++) {
+        for (pia_index i = j; i < c->count; i++) {
             double value[PIA_MAX_DIM];
             pia_functional_value(&c->row[i], y, dim, value);
             for (int k = 0; k < dim; k++) column[k * c->count + i] = value[k];
@@ -82,6 +82,7 @@ pia_status pia_constraints_correct(const pia_constraints *c, const pia_normal *n
     if (y == NULL) return pia_take_status(c->context, size, 2 * sizeof *y);
     for (int round = 0; round < REFINEMENTS; round++) {
         for (pia_index i = 0; i < size; i++) y[i] = points[i] + correction[i];
+        if (pia_constraints_violation(c, y, NULL) == 0) break;
         pia_constraints_residual(c, y, c->left);
         pia_schur_solve(c, &c->direct, c->left, c->multiplier);
         memset(y, 0, (size_t)size * sizeof *y);

@@ -78,7 +78,7 @@ static double deviation(cleaning *w, pia_index b)
     pia_index n = c->rank;
     int dim = w->s.dim;
     for (pia_index a = 0; a < n; a++)
-        for (int d = 0; d < dim; d++) w->weights[a * dim + d] = w->matrix[a * n + b];
+        for (int d = 0; d < dim; d++) w->weights[a * dim + d] = a > b ? w->matrix[a * n + b] : w->matrix[b * n + a];
     pia_schur_solve_conditions(&w->s, w->weights);
     double square = 0;
     for (int d = 0; d < dim; d++) {
@@ -132,6 +132,19 @@ static void give(cleaning *w)
     pia_schur_close(w->c, &w->s);
 }
 
+/* Nothing to drop: the factor at hand is the metric's. */
+static pia_status settle(cleaning *w)
+{
+    pia_constraints *c = w->c;
+    if (w->s.rank < w->s.size) {
+        pia_conditions_keep(c, w->keep);
+        return pia_constraints_metric(c, NULL);
+    }
+    c->metric = w->s;
+    w->s = (pia_schur){0};
+    return PIA_OK;
+}
+
 pia_status pia_constraints_clean(pia_constraints *c, const double *points, pia_notes *notes)
 {
     cleaning w = {.c = c};
@@ -143,7 +156,7 @@ pia_status pia_constraints_clean(pia_constraints *c, const double *points, pia_n
         pia_schur_factor(&w.s, dependent);
         status = judge(&w, points, notes);
     }
-    if (status == PIA_OK) pia_conditions_keep(c, w.keep);
+    if (status == PIA_OK) status = settle(&w);
     give(&w);
     return status;
 }

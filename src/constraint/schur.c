@@ -30,15 +30,20 @@ void pia_schur_close(const pia_constraints *c, pia_schur *s)
     *s = (pia_schur){0};
 }
 
+static double product(const double *a, const double *b, int dim)
+{
+    double sum = 0;
+    for (int d = 0; d < dim; d++) sum += a[d] * b[d];
+    return sum;
+}
+
+/* Conditions are in the order of their rows: the lower triangle of column b begins with b itself. */
 void pia_schur_fill(const pia_constraints *c, pia_schur *s, pia_index j, const double *column)
 {
     for (pia_index b = c->begin[j]; b < c->begin[j + 1]; b++)
-        for (pia_index a = 0; a < s->size; a++) {
+        for (pia_index a = b; a < s->size; a++) {
             double entry = column[c->of[a]];
-            for (int d = 0; d < c->dim && c->basis != NULL; d++) {
-                if (d == 0) entry = 0;
-                entry += column[c->of[a]] * c->basis[a * c->dim + d] * c->basis[b * c->dim + d];
-            }
+            if (c->basis != NULL) entry *= product(c->basis + a * c->dim, c->basis + b * c->dim, c->dim);
             s->matrix[a * s->size + b] = entry;
         }
 }
@@ -71,7 +76,7 @@ void pia_schur_of_metric(const pia_constraints *c, pia_schur *s)
             pia_index unknown = pia_functional_unknown(&c->row[j], k, &entry);
             spread[unknown] += entry * c->inverse[unknown];
         }
-        for (pia_index i = 0; i < c->count; i++) pia_functional_value(&c->row[i], spread, 1, &column[i]);
+        for (pia_index i = j; i < c->count; i++) pia_functional_value(&c->row[i], spread, 1, &column[i]);
         pia_schur_fill(c, s, j, column);
         for (int k = 0; k < size; k++) spread[pia_functional_unknown(&c->row[j], k, &entry)] = 0;
     }
