@@ -147,7 +147,7 @@ static inline problem *problem_open(pia_context *context, pia_kind kind, int p, 
     self->dense = malloc((size_t)(self->rows * self->cols) * sizeof(double));
     for (pia_index row = 0; row < self->rows; row++) {
         const int value[2] = {0, 0};
-        double t[2];
+        double t[2] = {0, 0};
         problem_parameters(self, row, t);
         problem_row(self, t, value, self->dense + row * self->cols);
     }
