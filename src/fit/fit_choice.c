@@ -56,7 +56,7 @@ static int wants_least_squares(const pia_fit *fit)
         if (o->knots[d] != NULL && o->knot_count[d] != count + o->degree[d] + 1) fewer = 1;
     }
     return fewer || fit->refining || fit->kind == PIA_SCATTERED || fit->has_holes || fit->weights != NULL || o->robust != NULL ||
-           o->interpolate_count > 0 || o->constraint_count > 0;
+           o->fairing > 0 || o->interpolate_count > 0 || o->constraint_count > 0;
 }
 
 /* A tolerance without control points, knots or a start asks for the knots as well; interpolating methods only stop at it. */
@@ -126,6 +126,17 @@ static const char *automatic(pia_fit *fit)
     if (fit->kind == PIA_SCATTERED || (fit->kind == PIA_GRID && (fit->has_holes || fit->weights != NULL))) return automatic_sparse(fit);
     pia_fit_note_add(fit, "method: direct, banded normal equations");
     return "direct";
+}
+
+static pia_status check_fairing(pia_fit *fit)
+{
+    if (!(fit->options.fairing > 0)) return PIA_OK;
+    if (fit->square)
+        return pia_fail(fit->context, PIA_E_ARGUMENT, "method %s interpolates and leaves fairing no freedom; use direct, lspia or cg",
+                        fit->solve.method->name);
+    if (fit->directions == 1 && fit->degree[0] < 2)
+        return pia_fail(fit->context, PIA_E_ARGUMENT, "a polygon has no curvature to fair; use degree 2 or more");
+    return PIA_OK;
 }
 
 static pia_status choose_method(pia_fit *fit)
@@ -211,6 +222,7 @@ pia_status pia_fit_choose(pia_fit *fit)
     }
     pia_status status = choose_method(fit);
     if (status == PIA_OK) status = pia_fit_choose_loss(fit);
+    if (status == PIA_OK) status = check_fairing(fit);
     if (status == PIA_OK) status = choose_limiter(fit);
     if (status == PIA_OK) status = choose_placement(fit);
     const char *name = fit->options.parametrization;

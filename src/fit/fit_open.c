@@ -44,6 +44,8 @@ static pia_status check_options(pia_fit *fit)
         return pia_fail(context, PIA_E_ARGUMENT, "%lld iterations are not a count", (long long)o->max_iterations);
     if (isnan(o->stop_change) || isnan(o->stop_gradient) || o->trace_every < 0)
         return pia_fail(context, PIA_E_ARGUMENT, "stop_change, stop_gradient or trace_every is not a number >= 0");
+    if (!(o->fairing >= 0) || isinf(o->fairing))
+        return pia_fail(context, PIA_E_ARGUMENT, "fairing %g is not a finite number >= 0", o->fairing);
     for (int d = 0; d < 2; d++)
         if (o->control[d] < 1 && o->control[d] != PIA_AUTO)
             return pia_fail(context, PIA_E_ARGUMENT, "%lld control points are not a count", (long long)o->control[d]);
@@ -109,8 +111,8 @@ static pia_status take_iterate(pia_fit *fit)
     if (iterate->points == NULL || iterate->adjust == NULL) return PIA_E_MEMORY;
     unsigned needs = fit->solve.method->needs;
     if (!fit->square) {
-        pia_status status = pia_normal_open(fit->op, &iterate->targets, &fit->normal);
-        if (status != PIA_OK && status != PIA_E_UNAVAILABLE) return status;
+        pia_status status = pia_normal_open_fair(fit->op, &iterate->targets, fit->options.fairing, &fit->normal);
+        if (status != PIA_OK && (status != PIA_E_UNAVAILABLE || fit->options.fairing > 0)) return status;
         iterate->normal = fit->normal;
     }
     int fused = fit->solve.method->step != NULL && fit->solve.limiter == NULL;

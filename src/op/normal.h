@@ -6,6 +6,7 @@
 
 #include "op.h"
 
+struct pia_energy;
 typedef struct pia_normal pia_normal;
 
 typedef struct pia_normal_class {
@@ -24,16 +25,19 @@ typedef struct pia_normal_class {
 struct pia_normal {
     const pia_normal_class *class;
     const pia_op *op;
-    double *right;      /* b [cols x dim] */
-    double *diagonal;   /* of H [cols] */
-    double *column_sum; /* sum over rows of w N_c [cols] */
-    pia_index weak;     /* unknowns that the data do not hold, known after factor: solutions are 0 or small there */
+    double *right;             /* b [cols x dim] */
+    double *diagonal;          /* of H [cols] */
+    double *column_sum;        /* sum over rows of w N_c [cols] */
+    pia_index weak;            /* unknowns that the data do not hold, known after factor: solutions are 0 or small there */
+    struct pia_energy *energy; /* added to H, see energy.h; NULL: none */
     void *state;
 };
 
 /* Banded for curves; a Kronecker product for full grids without weights and frozen control points; a stencil for other surfaces.
  * Errors: PIA_E_MEMORY, PIA_E_SIZE; PIA_E_UNAVAILABLE when this operator has no normal form. */
 pia_status pia_normal_open(pia_op *op, const pia_targets *targets, pia_normal **out);
+/* The same with the fairing energy added to H, `fairing` > 0 times as strong as the data; with 0 it is pia_normal_open. */
+pia_status pia_normal_open_fair(pia_op *op, const pia_targets *targets, double fairing, pia_normal **out);
 void pia_normal_close(pia_normal *normal);
 
 /* Points or weights of rows first_row .. last_row have changed, their parameters have not: sums again, from the data, what these rows

@@ -1,6 +1,6 @@
 /* The normal form of a curve: the shares of the knot spans are kept, so that an edit sums again only the spans it touches, and are put
  * together in order of the spans, which costs as much as one iteration. */
-#include "gram.h"
+#include "energy.h"
 #include "normal.h"
 #include "span_sums.h"
 
@@ -41,6 +41,11 @@ static void derive(pia_normal *normal)
     curve *c = normal->state;
     for (pia_index i = 0; i < c->gram.count; i++) normal->diagonal[i] = 1;
     pia_gram_multiply(&c->gram, normal->diagonal, 1, 1, normal->column_sum);
+    pia_gram_diagonal(&c->gram, normal->diagonal);
+    if (normal->energy == NULL) return;
+    double factor = pia_energy_factor(normal->energy, normal->diagonal);
+    pia_energy_add_gram(normal->energy, factor, &c->gram);
+    pia_energy_add_sums(normal->energy, factor, normal->column_sum);
     pia_gram_diagonal(&c->gram, normal->diagonal);
 }
 

@@ -1,6 +1,7 @@
 /* The normal form of scattered points, and of grids with holes or weights of their own, which are no Kronecker product: a stencil.
  * Cells are summed strip by strip. CG on it is preconditioned by the Kronecker product of the marginals; the direct solve is sparse. */
 #include "cell_sums.h"
+#include "energy.h"
 #include "normal.h"
 #include "op_scatter.h"
 #include "sparse.h"
@@ -134,6 +135,12 @@ static void sum_all(pia_normal *normal, const pia_targets *targets)
     pia_stencil_diagonal(&s->stencil, op, normal->diagonal);
     for (pia_index c = 0; c < op->cols; c++) s->scale[c] = 1; /* H 1: basis functions sum to 1 */
     multiply_all(normal, s->scale, 1, normal->column_sum);
+    if (normal->energy != NULL) {
+        double factor = pia_energy_factor(normal->energy, normal->diagonal);
+        pia_energy_add_stencil(normal->energy, factor, &s->stencil);
+        pia_energy_add_sums(normal->energy, factor, normal->column_sum);
+        pia_stencil_diagonal(&s->stencil, op, normal->diagonal);
+    }
     s->approximated = 0;
 }
 
