@@ -3,6 +3,36 @@
 #include <math.h>
 #include <string.h>
 
+/* Time and the progress callback, between rounds. */
+int pia_refine_stopped(pia_fit *fit)
+{
+    pia_solve *solve = &fit->solve;
+    solve->seconds = pia_seconds() - fit->began;
+    if (solve->stop == PIA_STOP_NONE && solve->rules.progress != NULL && solve->rules.progress(solve->rules.user))
+        solve->stop = PIA_STOP_CANCELLED;
+    if (solve->stop == PIA_STOP_NONE && solve->rules.time_limit > 0 && solve->seconds >= solve->rules.time_limit)
+        solve->stop = PIA_STOP_TIME;
+    return solve->stop != PIA_STOP_NONE;
+}
+
+int pia_refine_reached(const pia_fit *fit)
+{
+    return pia_refine_worst(fit, 0, fit->rows) <= 1;
+}
+
+pia_status pia_refine(pia_fit *fit)
+{
+    fit->began = pia_seconds() - fit->solve.seconds;
+    pia_status status = fit->directions == 1 ? pia_refine_curve(fit) : pia_refine_surface(fit);
+    if (status != PIA_OK) return status;
+    if (fit->solve.stop == PIA_STOP_NONE) fit->solve.stop = pia_refine_reached(fit) ? PIA_STOP_TOLERANCE : PIA_STOP_NO_KNOT_LEFT;
+    if (fit->solve.stop == PIA_STOP_NO_KNOT_LEFT)
+        pia_fit_note_add(fit, "the tolerance cannot be had with these parameters: no knot is left that the data could hold; %g can",
+                         fit->iterate.errors.max);
+    fit->solve.seconds = pia_seconds() - fit->began;
+    return PIA_OK;
+}
+
 pia_status pia_refine_install(pia_fit *fit, const double *knots, pia_index control)
 {
     int p = fit->degree[0];
@@ -15,6 +45,52 @@ pia_status pia_refine_install(pia_fit *fit, const double *knots, pia_index contr
     fit->full[0] = full;
     pia_status status = fit->closed[0] ? pia_fit_turn(fit, 0) : PIA_OK;
     return status == PIA_OK ? pia_fit_assemble(fit) : status;
+}
+
+pia_status pia_refine_place(pia_fit *fit, int d, const double *inside, pia_index count)
+{
+    int p = fit->degree[d];
+    double low = fit->knots[d][p], high = fit->knots[d][fit->full[d]];
+    pia_index control = fit->closed[d] ? count + 1 : count + p + 1, full = control + (fit->closed[d] ? p : 0);
+    double *knots = pia_take(fit->context, full + p + 1, sizeof *knots);
+    if (knots == NULL) return PIA_E_MEMORY;
+    for (pia_index i = 0; i < full + p + 1; i++) {
+        pia_index k = i - p; /* 0: the first knot of the domain */
+        pia_index period = fit->closed[d] ? (k >= 0 ? k / control : -((control - 1 - k) / control)) : 0;
+        k -= period * control;
+        knots[i] = k <= 0 ? low : k <= count ? inside[k - 1] : high;
+        knots[i] += (double)period;
+    }
+    pia_give(fit->context, fit->knots[d]);
+    fit->knots[d] = knots;
+    fit->full[d] = full;
+    return fit->closed[d] && fit->kind != PIA_SCATTERED ? pia_fit_turn(fit, d) : PIA_OK;
+}
+
+/* The highest derivative on the span behind knot[degree], from divided differences of the control points that live there. */
+static void highest_derivative(const double *knot, const double *points, int p, int dim, double *out)
+{
+    double difference[(PIA_MAX_DEGREE + 1) * PIA_MAX_DIM];
+    memcpy(difference, points, (size_t)((p + 1) * dim) * sizeof *difference);
+    for (int order = 1; order <= p; order++)
+        for (int i = p; i >= order; i--) {
+            double width = knot[i + p - order + 1] - knot[i];
+            for (int d = 0; d < dim; d++) {
+                double *to = &difference[i * dim + d];
+                *to = width > 0 ? (p - order + 1) * (*to - difference[(i - 1) * dim + d]) / width : 0;
+            }
+        }
+    memcpy(out, difference + p * dim, (size_t)dim * sizeof(double));
+}
+
+double pia_refine_knot_cost(const double *knot, const double *points, int degree, int dim)
+{
+    double before[PIA_MAX_DIM], after[PIA_MAX_DIM], square = 0;
+    double left = knot[degree + 1] - knot[degree], right = knot[degree + 2] - knot[degree + 1];
+    highest_derivative(knot, points, degree, dim, before);
+    highest_derivative(knot + 1, points + dim, degree, dim, after);
+    for (int d = 0; d < dim; d++) square += (after[d] - before[d]) * (after[d] - before[d]);
+    return left + right > 0 ? sqrt(square) * pow(left * right / (left + right), degree) : 0;
 }
 
 pia_status pia_refine_solve(pia_fit *fit)

@@ -4,14 +4,19 @@
 
 #include "fit.h"
 
-/* Grows, spares and corrects a curve until the tolerance holds with as few control points as can be found. Ends with fit->solve.stop
- * set: PIA_STOP_TOLERANCE, or why the tolerance could not be had. */
+/* Grows, spares and corrects until the tolerance holds with as few control points as can be found. Ends with fit->solve.stop set:
+ * PIA_STOP_TOLERANCE, or why the tolerance could not be had. */
+pia_status pia_refine(pia_fit *fit);
+/* The same for a curve, and for a surface from a grid or from scattered points. */
 pia_status pia_refine_curve(pia_fit *fit);
+pia_status pia_refine_surface(pia_fit *fit);
+/* 1 when no row deviates more than it may. */
+int pia_refine_reached(const pia_fit *fit);
 
 /* One round of growing: knots where the error is, least squares. *grown is 0 when no span could be split. */
 pia_status pia_refine_grow(pia_fit *fit, int *grown);
-/* Interpolation, where growing ends: every row met, if all parameters differ (*possible). */
-pia_status pia_refine_interpolate(pia_fit *fit, int *possible);
+/* Interpolation, where growing ends: every row met. Nothing when parameters repeat, or rows are missing. */
+pia_status pia_refine_interpolate(pia_fit *fit);
 /* Takes knots away as long as no row deviates more than it may. */
 pia_status pia_refine_spare(pia_fit *fit, pia_index *spared);
 
@@ -26,5 +31,11 @@ int pia_refine_stopped(pia_fit *fit);
 pia_status pia_refine_install(pia_fit *fit, const double *knots, pia_index control);
 /* Least squares on the current knots: control points, errors, residuals. */
 pia_status pia_refine_solve(pia_fit *fit);
+
+/* The knots strictly inside the domain of one direction, rising [count]; the domain stays. The operator is not yet made anew. */
+pia_status pia_refine_place(pia_fit *fit, int direction, const double *inside, pia_index count);
+/* How little knot number degree + 1 of knot [2 degree + 3] does: the jump of the highest derivative there, as the distance that the
+ * curve with control points [(degree + 2) x dim] would move over the spans beside it. */
+double pia_refine_knot_cost(const double *knot, const double *points, int degree, int dim);
 
 #endif

@@ -7,18 +7,6 @@
 
 enum { MAX_GROWTH = 60, CORRECTIONS = 6, NEWTON_STEPS = 3 };
 
-/* Time and the progress callback, between rounds. */
-int pia_refine_stopped(pia_fit *fit)
-{
-    pia_solve *solve = &fit->solve;
-    solve->seconds = pia_seconds() - fit->began;
-    if (solve->stop == PIA_STOP_NONE && solve->rules.progress != NULL && solve->rules.progress(solve->rules.user))
-        solve->stop = PIA_STOP_CANCELLED;
-    if (solve->stop == PIA_STOP_NONE && solve->rules.time_limit > 0 && solve->seconds >= solve->rules.time_limit)
-        solve->stop = PIA_STOP_TIME;
-    return solve->stop != PIA_STOP_NONE;
-}
-
 /* Parameters at the foot points of the current curve; taken back where a step that was meant to bring points closer did not. */
 static pia_status move_to_feet(pia_fit *fit)
 {
@@ -38,34 +26,26 @@ static pia_status move_to_feet(pia_fit *fit)
     return status;
 }
 
-static int keeps_tolerance(const pia_fit *fit)
-{
-    return pia_refine_worst(fit, 0, fit->rows) <= 1;
-}
-
 static pia_status grow_until_kept(pia_fit *fit)
 {
     pia_status status = pia_refine_solve(fit);
     int more = 1;
-    for (int k = 0; k < MAX_GROWTH && status == PIA_OK && more && !keeps_tolerance(fit) && !pia_refine_stopped(fit); k++) {
+    for (int k = 0; k < MAX_GROWTH && status == PIA_OK && more && !pia_refine_reached(fit) && !pia_refine_stopped(fit); k++) {
         status = pia_refine_grow(fit, &more);
         fit->round++;
     }
-    if (status == PIA_OK && !keeps_tolerance(fit) && !pia_refine_stopped(fit)) status = pia_refine_interpolate(fit, &more);
+    if (status == PIA_OK && !pia_refine_reached(fit) && !pia_refine_stopped(fit)) status = pia_refine_interpolate(fit);
     return status;
 }
 
 pia_status pia_refine_curve(pia_fit *fit)
 {
-    fit->began = pia_seconds() - fit->solve.seconds;
     pia_status status = grow_until_kept(fit);
-    pia_index spared = status == PIA_OK && keeps_tolerance(fit);
+    pia_index spared = status == PIA_OK && pia_refine_reached(fit);
     for (int k = 0; status == PIA_OK && k < CORRECTIONS && spared > 0 && !pia_refine_stopped(fit); k++) {
         status = pia_refine_spare(fit, &spared);
         if (fit->options.measure_distance == 0) break;
         if (status == PIA_OK) status = move_to_feet(fit);
     }
-    if (fit->solve.stop == PIA_STOP_NONE) fit->solve.stop = keeps_tolerance(fit) ? PIA_STOP_TOLERANCE : PIA_STOP_NO_KNOT_LEFT;
-    fit->solve.seconds = pia_seconds() - fit->began;
     return status;
 }

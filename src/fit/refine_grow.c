@@ -61,36 +61,6 @@ static pia_index split_spans(const pia_fit *fit, double *out, pia_index *count)
     return added;
 }
 
-/* Knot vector from the knots strictly inside the domain: clamped, or one period that starts at the domain's first knot. */
-static pia_status install_inside(pia_fit *fit, const double *inside, pia_index count)
-{
-    int p = fit->degree[0];
-    double low = fit->knots[0][p], high = fit->knots[0][fit->full[0]];
-    pia_index control = fit->closed[0] ? count + 1 : count + p + 1;
-    double *knots = pia_take(fit->context, control + p + 1, sizeof *knots);
-    if (knots == NULL) return PIA_E_MEMORY;
-    if (fit->closed[0]) {
-        /* One period, starting p knots before the domain. */
-        for (pia_index i = 0; i < control; i++) {
-            pia_index k = i - p, periods = 0;
-            while (k < 0) {
-                k += control;
-                periods--;
-            }
-            knots[i] = (k == 0 ? low : inside[k - 1]) + (double)periods;
-        }
-    } else {
-        for (int i = 0; i <= p; i++) {
-            knots[i] = low;
-            knots[control + i] = high;
-        }
-        memcpy(knots + p + 1, inside, (size_t)count * sizeof *knots);
-    }
-    pia_status status = pia_refine_install(fit, knots, control);
-    pia_give(fit->context, knots);
-    return status;
-}
-
 pia_status pia_refine_grow(pia_fit *fit, int *grown)
 {
     pia_index count;
@@ -98,41 +68,64 @@ pia_status pia_refine_grow(pia_fit *fit, int *grown)
     if (inside == NULL) return PIA_E_MEMORY;
     pia_index added = split_spans(fit, inside, &count);
     *grown = added > 0 && (fit->closed[0] ? count + 1 : count + fit->degree[0] + 1) <= fit->rows;
-    pia_status status = *grown ? install_inside(fit, inside, count) : PIA_OK;
+    pia_status status = *grown ? pia_refine_place(fit, 0, inside, count) : PIA_OK;
     pia_give(fit->context, inside);
+    if (status == PIA_OK && *grown) status = pia_fit_assemble(fit);
     return status == PIA_OK && *grown ? pia_refine_solve(fit) : status;
 }
 
-/* The parameters as placements take them: those of a closed curve in [0, 1), rising. */
-static void unit_parameters(const pia_fit *fit, double *t)
+/* The parameters as placements take them: those of a closed direction in [0, 1), rising. */
+static void unit_parameters(const pia_fit *fit, int d, double *t)
 {
-    pia_index m = fit->rows, by = 0;
-    memcpy(t, fit->parameter[0], (size_t)m * sizeof *t);
-    if (!fit->closed[0]) return;
+    pia_index m = fit->count[d], by = 0;
+    memcpy(t, fit->parameter[d], (size_t)m * sizeof *t);
+    if (!fit->closed[d]) return;
     double base = floor(t[0]);
-    while (by < m && fit->parameter[0][by] < base + 1) by++;
+    while (by < m && fit->parameter[d][by] < base + 1) by++;
     for (pia_index i = 0; i < m; i++) {
         pia_index from = (by + i) % m;
-        t[i] = fit->parameter[0][from] - base - (from >= by ? 1 : 0);
+        t[i] = fit->parameter[d][from] - base - (from >= by ? 1 : 0);
     }
 }
 
-pia_status pia_refine_interpolate(pia_fit *fit, int *possible)
+static pia_status place_on_data(pia_fit *fit, int d)
 {
-    *possible = fit->rows > 2 * fit->degree[0] + 2;
-    for (pia_index i = 1; i < fit->rows; i++) *possible &= fit->parameter[0][i] > fit->parameter[0][i - 1];
-    if (!*possible) return PIA_OK;
-    pia_index count = fit->rows + 2 * fit->degree[0] + 1;
-    double *knots = pia_take(fit->context, count, sizeof *knots), *t = pia_take(fit->context, fit->rows, sizeof *t);
+    int p = fit->degree[d];
+    pia_index lines = fit->count[d], full = lines + (fit->closed[d] ? p : 0);
+    double *knots = pia_take(fit->context, full + p + 1, sizeof *knots), *t = pia_take(fit->context, lines, sizeof *t);
     pia_status status = knots != NULL && t != NULL ? PIA_OK : PIA_E_MEMORY;
     if (status == PIA_OK) {
-        unit_parameters(fit, t);
-        pia_place_problem problem = {fit->degree[0], fit->closed[0], fit->rows, t, fit->rows};
+        unit_parameters(fit, d, t);
+        pia_place_problem problem = {p, fit->closed[d], lines, t, lines};
         status = pia_place_find("average")->place(fit->context, &problem, knots);
     }
-    if (status == PIA_OK) status = pia_refine_install(fit, knots, fit->rows);
-    if (status == PIA_OK) status = pia_refine_solve(fit);
-    pia_give(fit->context, knots);
     pia_give(fit->context, t);
-    return status;
+    if (status != PIA_OK) {
+        pia_give(fit->context, knots);
+        return status;
+    }
+    pia_give(fit->context, fit->knots[d]);
+    fit->knots[d] = knots;
+    fit->full[d] = full;
+    return fit->closed[d] ? pia_fit_turn(fit, d) : PIA_OK;
+}
+
+static int can_interpolate(const pia_fit *fit)
+{
+    if (fit->kind == PIA_SCATTERED || fit->has_holes) return 0;
+    for (int d = 0; d < fit->directions; d++) {
+        if (fit->count[d] < 2 * fit->degree[d] + 3) return 0;
+        for (pia_index i = 1; i < fit->count[d]; i++)
+            if (!(fit->parameter[d][i] > fit->parameter[d][i - 1])) return 0;
+    }
+    return 1;
+}
+
+pia_status pia_refine_interpolate(pia_fit *fit)
+{
+    pia_status status = PIA_OK;
+    if (!can_interpolate(fit)) return PIA_OK;
+    for (int d = 0; d < fit->directions && status == PIA_OK; d++) status = place_on_data(fit, d);
+    if (status == PIA_OK) status = pia_fit_assemble(fit);
+    return status == PIA_OK ? pia_refine_solve(fit) : status;
 }

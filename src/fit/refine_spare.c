@@ -23,37 +23,13 @@ static int compare_costs(const void *a, const void *b)
     return (p->knot > q->knot) - (p->knot < q->knot);
 }
 
-/* The highest derivative on a span, from divided differences of its control points. */
-static void highest_derivative(const pia_draft *draft, pia_index span, double *out)
-{
-    int p = draft->degree, dim = draft->dim;
-    double difference[(PIA_MAX_DEGREE + 1) * PIA_MAX_DIM];
-    pia_index base = span - p;
-    for (int i = 0; i <= p; i++) {
-        pia_index at = draft->cyclic ? ((base + i) % draft->count + draft->count) % draft->count : base + i;
-        memcpy(difference + i * dim, draft->control + at * dim, (size_t)dim * sizeof(double));
-    }
-    for (int order = 1; order <= p; order++)
-        for (int i = p; i >= order; i--) {
-            double width = pia_draft_knot(draft, base + i + p - order + 1) - pia_draft_knot(draft, base + i);
-            for (int d = 0; d < dim; d++) {
-                double *to = &difference[i * dim + d];
-                *to = width > 0 ? (p - order + 1) * (*to - difference[(i - 1) * dim + d]) / width : 0;
-            }
-        }
-    memcpy(out, difference + p * dim, (size_t)dim * sizeof(double));
-}
-
-/* How little a knot does: the jump of the highest derivative there, as the distance that the curve would move over the spans beside. */
 static double knot_cost(const pia_draft *draft, pia_index j)
 {
-    double before[PIA_MAX_DIM], after[PIA_MAX_DIM], square = 0;
-    double left = pia_draft_knot(draft, j) - pia_draft_knot(draft, j - 1),
-           right = pia_draft_knot(draft, j + 1) - pia_draft_knot(draft, j);
-    highest_derivative(draft, j - 1, before);
-    highest_derivative(draft, j, after);
-    for (int d = 0; d < draft->dim; d++) square += (after[d] - before[d]) * (after[d] - before[d]);
-    return left + right > 0 ? sqrt(square) * pow(left * right / (left + right), draft->degree) : 0;
+    double knots[2 * PIA_MAX_DEGREE + 3], points[(PIA_MAX_DEGREE + 2) * PIA_MAX_DIM];
+    int p = draft->degree, dim = draft->dim;
+    for (int i = 0; i < 2 * p + 3; i++) knots[i] = pia_draft_knot(draft, j - p - 1 + i);
+    for (int i = 0; i < p + 2; i++) memcpy(points + i * dim, pia_draft_point(draft, j - p - 1 + i), (size_t)dim * sizeof(double));
+    return pia_refine_knot_cost(knots, points, p, dim);
 }
 
 /* Tries to do with one knot instead of two, nearer to the one that does more. */

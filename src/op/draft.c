@@ -16,7 +16,7 @@ double pia_draft_knot(const pia_draft *draft, pia_index i)
     return draft->knots[i] + (double)periods;
 }
 
-static double *control_at(const pia_draft *draft, pia_index i)
+const double *pia_draft_point(const pia_draft *draft, pia_index i)
 {
     pia_index periods = 0;
     if (draft->cyclic) i = wrap(i, draft->count, &periods);
@@ -109,7 +109,8 @@ static void cut_whole(const pia_draft *draft, pia_index first, int removed, cons
             period + (k < inserted ? added[k] - floor(added[k] - before) : pia_draft_knot(draft, first + removed - inserted + k));
     }
     for (int i = 0; i < w->count; i++)
-        memcpy(w->point + i * draft->dim, control_at(draft, first + removed - inserted + i % n), (size_t)draft->dim * sizeof(double));
+        memcpy(w->point + i * draft->dim, pia_draft_point(draft, first + removed - inserted + i % n),
+               (size_t)draft->dim * sizeof(double));
 }
 
 static void put_piece(pia_draft *draft, pia_index first, int removed, const double *added, int inserted, const pia_window *w)

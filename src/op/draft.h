@@ -36,6 +36,7 @@ typedef struct pia_draft {
 pia_index pia_draft_room(int degree, int dim, int reach);
 
 double pia_draft_knot(const pia_draft *draft, pia_index i);
+const double *pia_draft_point(const pia_draft *draft, pia_index i);
 /* First and one past the last knot index that may be taken away. */
 void pia_draft_inside(const pia_draft *draft, pia_index *first, pia_index *end);
 /* An index of the inside knot of this value; -1: there is none. */

@@ -153,6 +153,76 @@ static void the_number_of_threads_changes_no_bit(void **state)
     free(first);
 }
 
+/* Heights of a wavy sheet, in a ring in the second direction when closed. */
+static problem sheet(pia_kind kind, int degree, int closed, double tolerance)
+{
+    enum { U = 30, V = 45 };
+    problem p;
+    uint64_t seed = 3;
+    pia_data_init(&p.data);
+    pia_fit_options_init(&p.options);
+    p.points = malloc(U * V * 3 * sizeof *p.points);
+    for (int i = 0; i < U; i++)
+        for (int j = 0; j < V; j++) {
+            double *q = p.points + 3 * (i * V + j), angle = 6.283185307179586 * j / V;
+            q[0] = closed ? 10 * cos(angle) : j;
+            q[1] = closed ? 10 * sin(angle) : i;
+            q[2] = (closed ? i : 0) + 3 * sin(0.2 * i) * cos(closed ? 2 * angle : 0.15 * j) + 0.01 * random_number(&seed);
+        }
+    p.data.kind = kind;
+    p.data.points = p.points;
+    p.data.count[0] = kind == PIA_SCATTERED ? U * V : U;
+    p.data.count[1] = kind == PIA_SCATTERED ? 1 : V;
+    p.data.dim = 3;
+    for (int d = 0; d < 2; d++) p.options.degree[d] = degree;
+    p.options.closed[1] = closed;
+    p.options.tolerance = tolerance;
+    return p;
+}
+
+static void check_sheet(pia_context *context, const problem *p, pia_index most)
+{
+    pia_model *model;
+    pia_report report = {.struct_size = sizeof report};
+    pia_deviation deviation = {.struct_size = sizeof deviation};
+    assert_ok(context, pia_fit_data(context, &p->data, &p->options, &model, &report));
+    assert_string_equal(pia_stop_name(report.stop), "tolerance");
+    assert_int_equal(report.reached, 1);
+    assert_true(report.max_error <= p->options.tolerance);
+    pia_index rows = p->data.count[0] * p->data.count[1];
+    assert_ok(context, pia_model_deviation(context, model, p->points, rows, NULL, &deviation, NULL));
+    assert_true(deviation.max_error <= p->options.tolerance);
+    if (report.control_count > most)
+        fail_msg("%lld control points, at most %lld expected", (long long)report.control_count, (long long)most);
+    pia_model_destroy(model);
+}
+
+static void surfaces_keep_the_tolerance(void **state)
+{
+    (void)state;
+    pia_context *context;
+    assert_ok(NULL, pia_context_create(NULL, &context));
+    for (int degree = 2; degree <= 4; degree++)
+        for (int closed = 0; closed < 2; closed++) {
+            problem p = sheet(PIA_GRID, degree, closed, 0.05);
+            check_sheet(context, &p, 350);
+            p.options.tolerance = 1e-6; /* below the noise: every row is met */
+            check_sheet(context, &p, 30 * 45);
+            free(p.points);
+        }
+    problem p = sheet(PIA_SCATTERED, 3, 0, 0.1);
+    double *parameters = malloc(2 * 30 * 45 * sizeof *parameters);
+    for (int i = 0; i < 30 * 45; i++) {
+        parameters[2 * i] = i / 45 / 29.0;
+        parameters[2 * i + 1] = i % 45 / 44.0;
+    }
+    p.data.parameters = parameters;
+    check_sheet(context, &p, 350);
+    free(parameters);
+    free(p.points);
+    pia_context_destroy(context);
+}
+
 static void what_cannot_be_had_is_said(void **state)
 {
     (void)state;
@@ -207,6 +277,7 @@ int main(void)
         cmocka_unit_test(high_degrees_keep_the_tolerance),
         cmocka_unit_test(tolerances_a_point_are_kept),
         cmocka_unit_test(the_number_of_threads_changes_no_bit),
+        cmocka_unit_test(surfaces_keep_the_tolerance),
         cmocka_unit_test(what_cannot_be_had_is_said),
         cmocka_unit_test(a_cancelled_fit_keeps_a_model),
     };
