@@ -4,6 +4,7 @@
 #include "fit.h"
 #include "param.h"
 #include "place.h"
+#include "sequence.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -143,6 +144,31 @@ static void robust(walk *w, pia_fit *fit)
     r->round = v[3];
     r->outliers = r->weight != NULL ? v[4] : 0;
     r->rows = r->weight != NULL ? fit->rows : 0;
+}
+
+/* Control parameters of a direction, a number a line. */
+static void sequence_lines(walk *w, pia_fit *fit, int d)
+{
+    pia_sequence *s = fit->sequence;
+    pia_index *flags = pia_take(w->context, s->lines[d], sizeof *flags);
+    if (flags == NULL) w->status = PIA_E_MEMORY;
+    if (w->status == PIA_OK) pia_sequence_flags(s, d, flags);
+    array(w, d == 0 ? "lines_0" : "lines_1", PIA_SECTION_INDEX, flags, s->lines[d]);
+    if (w->writer == NULL && w->status == PIA_OK && pia_sequence_restore(s, d, flags) != fit->full[d])
+        w->status = pia_fail(w->context, PIA_E_FORMAT, "checkpoint: its control parameters do not fit its knots");
+    pia_give(w->context, flags);
+}
+
+static void sequence(walk *w, pia_fit *fit)
+{
+    if (w->status == PIA_OK && w->writer == NULL && pia_fit_by_line(fit)) w->status = pia_sequence_open(fit);
+    pia_sequence *s = fit->sequence;
+    if (s == NULL || w->status != PIA_OK) return;
+    for (int d = 0; d < fit->directions && w->status == PIA_OK; d++) sequence_lines(w, fit, d);
+    double v[2] = {s->last_error, s->grows};
+    array(w, "lines_loop", PIA_SECTION_DOUBLE, v, 2);
+    s->last_error = v[0];
+    s->grows = v[1] != 0;
 }
 
 static void rules(walk *w, pia_fit *fit)
@@ -357,6 +383,7 @@ pia_status pia_fit_save(pia_fit *fit, const char *path)
     data(&w, fit);
     robust(&w, fit);
     rules(&w, fit);
+    sequence(&w, fit);
     constraints(&w, fit);
     progress(&w, fit);
     trace(&w, fit);
@@ -433,6 +460,7 @@ static pia_status rebuild(walk *w, pia_fit *fit)
         (fit->own_points == NULL || fit->parameter[0] == NULL || fit->knots[0] == NULL ||
          (fit->directions == 2 && fit->knots[1] == NULL) || (fit->kind == PIA_GRID && fit->parameter[1] == NULL)))
         w->status = pia_fail(w->context, PIA_E_FORMAT, "checkpoint: points, parameters or knots are missing");
+    sequence(w, fit);
     if (w->status == PIA_OK) w->status = pia_fit_assemble(fit);
     constraints(w, fit);
     if (w->status == PIA_OK) array(w, "points_now", PIA_SECTION_DOUBLE, fit->iterate.points, fit->op->cols * fit->dim);

@@ -5,7 +5,9 @@
  *   fit_knots.c       knots and operators                            fit_edit.c     edits of a running fit
  *   fit_foot.c        parameters moved to foot points                fit_call.c     the one call
  *   fit_constrain.c   points and derivatives met exactly             fit_outcome.c  what is worth saying of the result
- *   fit_robust.c      weights of a robust loss                       refine*.c      knots for a tolerance */
+ *   fit_robust.c      weights of a robust loss                       fit_epia.c     groups and knot insertion of [2011]
+ *   sequence*.c       control points that stand for data lines       fit_dominant.c Park's dominant columns
+ *   refine*.c         knots for a tolerance */
 #ifndef PIA_FIT_FIT_H
 #define PIA_FIT_FIT_H
 
@@ -72,7 +74,8 @@ struct pia_fit {
     pia_collocation line[2];
     pia_op *op;
     pia_iterate iterate;
-    pia_normal *normal; /* of the data; iterate.normal may wrap it with soft constraints */
+    pia_normal *normal;            /* of the data; iterate.normal may wrap it with soft constraints */
+    struct pia_sequence *sequence; /* control parameters: knots at dominant points, method epia; NULL: neither */
     struct pia_constraints *soft_constraints;
     pia_fit_constraint *constraint; /* [constraint_count], the caller's ids */
     pia_index constraint_count, constraint_room;
@@ -97,6 +100,19 @@ pia_status pia_fit_operate(pia_fit *fit);
 /* Operator, normal form and iterate for the current knots, in place of the ones before; control points undefined. */
 pia_status pia_fit_assemble(pia_fit *fit);
 pia_status pia_fit_initial(pia_fit *fit);
+/* Whether the method moves control points by groups of data; whether control points stand for data lines: that, or knots placed by
+ * curvature. */
+int pia_fit_is_grouped(const pia_fit *fit);
+int pia_fit_by_line(const pia_fit *fit);
+/* The default of stop_change, in units of the extent. */
+#define PIA_FIT_CHANGE 1e-14
+/* Room for the knots of `full` control points in a direction, which it then has. */
+pia_status pia_fit_take_knots(pia_fit *fit, int direction, pia_index full);
+/* Whether that many control points suit degree and data. */
+pia_status pia_fit_check_control(pia_fit *fit, int direction, pia_index control);
+/* The row used for a data row; a dropped row stands for the one it repeats: the first one for a closed curve's last, else the one
+ * before. -1: no such row. */
+pia_index pia_fit_row(const pia_fit *fit, pia_index data_row);
 /* Knots, and control points, of a model in place of the current ones; between the two calls the fit is assembled. */
 pia_status pia_fit_adopt_knots(pia_fit *fit, const pia_model *start);
 pia_status pia_fit_adopt_control(pia_fit *fit, const pia_model *start);

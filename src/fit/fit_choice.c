@@ -131,8 +131,8 @@ static const char *automatic(pia_fit *fit)
 static pia_status check_fairing(pia_fit *fit)
 {
     if (!(fit->options.fairing > 0)) return PIA_OK;
-    if (fit->square)
-        return pia_fail(fit->context, PIA_E_ARGUMENT, "method %s interpolates and leaves fairing no freedom; use direct, lspia or cg",
+    if (fit->square || pia_fit_is_grouped(fit))
+        return pia_fail(fit->context, PIA_E_ARGUMENT, "method %s leaves fairing no freedom; use direct, lspia or cg",
                         fit->solve.method->name);
     if (fit->directions == 1 && fit->degree[0] < 2)
         return pia_fail(fit->context, PIA_E_ARGUMENT, "a polygon has no curvature to fair; use degree 2 or more");
@@ -154,9 +154,12 @@ static pia_status choose_method(pia_fit *fit)
     if (fit->square && fit->has_holes)
         return pia_fail(fit->context, PIA_E_ARGUMENT,
                         "method %s interpolates and cannot leave out points without a value; use direct, lspia or cg", name);
-    if (fit->options.interpolate_count + fit->options.constraint_count > 0 && (needs & PIA_KNOWS_CONSTRAINTS) == 0)
+    pia_index beyond = fit->options.constraint_count + ((needs & PIA_NEEDS_GROUPS) != 0 ? 0 : fit->options.interpolate_count);
+    if (beyond > 0 && (needs & PIA_KNOWS_CONSTRAINTS) == 0)
         return pia_fail(fit->context, PIA_E_ARGUMENT, "method %s knows no constraints; use clspia, clspia-pcg or direct", name);
     if (fit->square && fit->weights != NULL) pia_fit_note_add(fit, "weights do not change an interpolation and were not used");
+    if ((needs & PIA_NEEDS_GROUPS) != 0 && fit->weights != NULL)
+        pia_fit_note_add(fit, "method %s knows no weights; they were not used", name);
     return pia_values_read(fit->context, name, fit->solve.method->parameters, fit->options.method_options,
                            fit->options.method_option_count, &fit->method_values);
 }
@@ -187,6 +190,24 @@ static int is_paper_format(const pia_fit *fit)
     return 1;
 }
 
+int pia_fit_is_grouped(const pia_fit *fit)
+{
+    return (fit->solve.method->needs & PIA_NEEDS_GROUPS) != 0;
+}
+
+int pia_fit_by_line(const pia_fit *fit)
+{
+    return pia_fit_is_grouped(fit) || (fit->placement != NULL && fit->placement->by_curvature);
+}
+
+static const char *automatic_placement(const pia_fit *fit)
+{
+    if (is_paper_format(fit)) return "pia2004";
+    if (fit->square) return "average";
+    if (fit->kind == PIA_SCATTERED) return "uniform";
+    return pia_fit_is_grouped(fit) ? "dominant" : "lsq";
+}
+
 static pia_status choose_placement(pia_fit *fit)
 {
     const char *name = fit->options.placement;
@@ -195,10 +216,13 @@ static pia_status choose_placement(pia_fit *fit)
             return pia_fail(fit->context, PIA_E_ARGUMENT, "knots are given, so they cannot also be placed by \"%s\"", name);
         return PIA_OK;
     }
-    if (name == NULL || strcmp(name, "auto") == 0)
-        name = is_paper_format(fit) ? "pia2004" : fit->square ? "average" : fit->kind == PIA_SCATTERED ? "uniform" : "lsq";
+    if (name == NULL || strcmp(name, "auto") == 0) name = automatic_placement(fit);
     fit->placement = pia_place_find(name);
     if (fit->placement == NULL) return unknown(fit, "placement", name);
+    if (fit->placement->by_curvature &&
+        (fit->square || fit->kind == PIA_SCATTERED || (fit->placement->adds_lines && fit->directions == 1)))
+        return pia_fail(fit->context, PIA_E_ARGUMENT, "knots %s are for least squares and epia%s; use average or lsq", name,
+                        fit->placement->adds_lines ? " of grids" : " of curves and grids");
     if (strcmp(name, "pia2004") != 0) return PIA_OK;
     for (int d = 0; d < fit->directions; d++)
         if (fit->degree[d] != 3 || fit->closed[d])

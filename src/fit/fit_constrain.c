@@ -29,9 +29,7 @@ void pia_fit_unbind(pia_fit *fit)
     iterate->constraint_error = NAN;
 }
 
-/* The row used for a data row; a dropped row stands for the one it repeats: the first one for a closed curve's last, else the one
- * before. */
-static pia_index row_for(const pia_fit *fit, pia_index data_row)
+pia_index pia_fit_row(const pia_fit *fit, pia_index data_row)
 {
     if (fit->row == NULL) return data_row >= 0 && data_row < fit->rows ? data_row : -1;
     pia_index before = -1, first = -1;
@@ -53,7 +51,7 @@ static pia_status take_constraint(pia_fit *fit, const pia_constraint *given, pia
     if (status != PIA_OK) return status;
     *out = (pia_fit_constraint){.asked = c};
     out->asked.value = NULL;
-    if (c.at_point != PIA_AUTO && row_for(fit, c.at_point) < 0)
+    if (c.at_point != PIA_AUTO && pia_fit_row(fit, c.at_point) < 0)
         return pia_fail(fit->context, PIA_E_ARGUMENT, "constraint %lld names data row %lld; there are rows 0 to %lld",
                         (long long)number, (long long)c.at_point, (long long)fit->given - 1);
     for (int d = 0; c.value != NULL && d < fit->dim; d++)
@@ -132,7 +130,7 @@ pia_status pia_fit_bind(pia_fit *fit)
         list[count] = c->asked;
         list[count].value = c->value;
         if (c->asked.at_point != PIA_AUTO)
-            list[count].at_point = row_for(fit, c->asked.at_point);
+            list[count].at_point = pia_fit_row(fit, c->asked.at_point);
         else
             fold(fit, list[count].at_parameter);
         count++;

@@ -113,7 +113,9 @@ pia_status pia_fit_move_point(pia_fit *fit, pia_index data_row, const double *po
 pia_status pia_fit_weigh_point(pia_fit *fit, pia_index data_row, double weight)
 {
     pia_index row;
-    if (fit->square) return pia_fail(fit->context, PIA_E_ARGUMENT, "weights do not change an interpolation; use least squares");
+    if (fit->square || fit->iterate.groups != NULL)
+        return pia_fail(fit->context, PIA_E_ARGUMENT, "weights do not change what method %s does; use least squares",
+                        fit->solve.method->name);
     if (!(weight >= 0) || isinf(weight)) return pia_fail(fit->context, PIA_E_DATA, "weight %g is not finite and >= 0", weight);
     pia_status status = find_row(fit, data_row, &row);
     if (status != PIA_OK) return status;
@@ -177,7 +179,7 @@ static pia_status check_more(pia_fit *fit, const pia_data *more)
 {
     pia_context *context = fit->context;
     pia_index wide = fit->kind == PIA_SCATTERED ? 2 : 1;
-    if (fit->square || fit->kind == PIA_GRID || fit->function_graph)
+    if (fit->square || fit->sequence != NULL || fit->kind == PIA_GRID || fit->function_graph)
         return pia_fail(context, PIA_E_ARGUMENT, "rows can be added to least-squares curves and scattered surfaces only");
     if (more->kind != fit->kind || more->dim != fit->dim || more->points == NULL || more->parameters == NULL || more->count[0] < 1)
         return pia_fail(context, PIA_E_SHAPE, "added rows need the kind and the %d components of the fit, and given parameters",
@@ -216,8 +218,9 @@ pia_status pia_fit_add_points(pia_fit *fit, const pia_data *more)
 
 pia_status pia_fit_insert_knot(pia_fit *fit, int direction, double knot)
 {
-    if (fit->square)
-        return pia_fail(fit->context, PIA_E_ARGUMENT, "an interpolation has as many control points as data; use least squares");
+    if (fit->square || fit->sequence != NULL)
+        return pia_fail(fit->context, PIA_E_ARGUMENT,
+                        "knots of an interpolation and of control parameters follow the data; use least squares");
     if (direction < 0 || direction >= fit->directions)
         return pia_fail(fit->context, PIA_E_ARGUMENT, "direction %d does not exist here", direction);
     if (fit->op->frozen != NULL) pia_fit_note_add(fit, "control points were freed: a knot was inserted");

@@ -4,11 +4,12 @@
 #include "knots.h"
 #include "model.h"
 #include "op_scatter.h"
+#include "sequence.h"
 
 #include <math.h>
 #include <string.h>
 
-static pia_status take_knots(pia_fit *fit, int d, pia_index full)
+pia_status pia_fit_take_knots(pia_fit *fit, int d, pia_index full)
 {
     fit->full[d] = full;
     pia_give(fit->context, fit->knots[d]);
@@ -26,7 +27,7 @@ static pia_index wanted_control(const pia_fit *fit, int d)
     return tenth > least ? tenth : least < rows ? least : rows;
 }
 
-static pia_status check_control(pia_fit *fit, int d, pia_index control)
+pia_status pia_fit_check_control(pia_fit *fit, int d, pia_index control)
 {
     pia_context *context = fit->context;
     pia_index least = fit->closed[d] ? 3 : fit->degree[d] + 1, rows = fit->count[d];
@@ -51,12 +52,12 @@ static pia_status check_control(pia_fit *fit, int d, pia_index control)
 static pia_status place_direction(pia_fit *fit, int d)
 {
     pia_index control = wanted_control(fit, d);
-    pia_status status = check_control(fit, d, control);
+    pia_status status = pia_fit_check_control(fit, d, control);
     if (status != PIA_OK) return status;
     int doubled = strcmp(fit->placement->name, "pia2004") == 0;
     if (doubled) control += 2;
     fit->map[d] = doubled ? PIA_MAP_DOUBLED : fit->closed[d] ? PIA_MAP_CYCLIC : PIA_MAP_IDENTITY;
-    status = take_knots(fit, d, control + (fit->closed[d] ? fit->degree[d] : 0));
+    status = pia_fit_take_knots(fit, d, control + (fit->closed[d] ? fit->degree[d] : 0));
     if (status != PIA_OK) return status;
     pia_place_problem problem = {fit->degree[d], fit->closed[d], control, fit->parameter[d], fit->count[d]};
     return fit->placement->place(fit->context, &problem, fit->knots[d]);
@@ -73,9 +74,9 @@ static pia_status given_direction(pia_fit *fit, int d, const double *knots, pia_
         return pia_fail(fit->context, PIA_E_SHAPE, "%lld knots make %lld control points of degree %d, but %lld were asked",
                         (long long)count, (long long)n, fit->degree[d], (long long)fit->options.control[d]);
     fit->map[d] = fit->closed[d] ? PIA_MAP_CYCLIC : PIA_MAP_IDENTITY;
-    pia_status status = check_control(fit, d, n);
+    pia_status status = pia_fit_check_control(fit, d, n);
     if (status == PIA_OK && !fit->closed[d]) status = pia_knots_check(fit->context, fit->degree[d], knots, count, full);
-    if (status == PIA_OK) status = take_knots(fit, d, full);
+    if (status == PIA_OK) status = pia_fit_take_knots(fit, d, full);
     if (status == PIA_OK) memcpy(fit->knots[d], knots, (size_t)count * sizeof(double));
     return status;
 }
@@ -94,8 +95,8 @@ pia_status pia_fit_adopt_knots(pia_fit *fit, const pia_model *start)
         pia_index n = start->control[d] - (start->periodic[d] ? start->degree[d] : 0);
         fit->map[d] = fit->closed[d] ? PIA_MAP_CYCLIC : PIA_MAP_IDENTITY;
         if (fit->square && n == fit->count[d] + 2 && fit->degree[d] == 3) fit->map[d] = PIA_MAP_DOUBLED;
-        pia_status status = fit->map[d] == PIA_MAP_DOUBLED ? PIA_OK : check_control(fit, d, n);
-        if (status == PIA_OK) status = take_knots(fit, d, start->control[d]);
+        pia_status status = fit->map[d] == PIA_MAP_DOUBLED ? PIA_OK : pia_fit_check_control(fit, d, n);
+        if (status == PIA_OK) status = pia_fit_take_knots(fit, d, start->control[d]);
         if (status != PIA_OK) return status;
         knots[d] = fit->knots[d];
     }
@@ -186,13 +187,28 @@ static pia_status place_scattered(pia_fit *fit, int d)
         control = (pia_index)sqrt((double)fit->rows / 10);
         if (control < fit->degree[d] + 1) control = fit->degree[d] + 1;
     }
-    pia_status status = check_control(fit, d, control);
+    pia_status status = pia_fit_check_control(fit, d, control);
     if (status != PIA_OK) return status;
     fit->map[d] = fit->closed[d] ? PIA_MAP_CYCLIC : PIA_MAP_IDENTITY;
-    status = take_knots(fit, d, control + (fit->closed[d] ? fit->degree[d] : 0));
+    status = pia_fit_take_knots(fit, d, control + (fit->closed[d] ? fit->degree[d] : 0));
     if (status != PIA_OK) return status;
     pia_place_problem problem = {fit->degree[d], fit->closed[d], control, range, 2};
     return fit->placement->place(fit->context, &problem, fit->knots[d]);
+}
+
+/* Knots that follow control parameters, chosen by curvature. */
+static pia_status place_by_curvature(pia_fit *fit)
+{
+    pia_status status = pia_sequence_open(fit);
+    if (status == PIA_OK) status = pia_sequence_choose(fit);
+    return status == PIA_OK ? pia_sequence_place(fit) : status;
+}
+
+/* Control parameters for knots that came from elsewhere. */
+static pia_status follow_knots(pia_fit *fit)
+{
+    pia_status status = pia_sequence_open(fit);
+    return status == PIA_OK ? pia_sequence_from_knots(fit) : status;
 }
 
 pia_status pia_fit_place(pia_fit *fit)
@@ -200,6 +216,8 @@ pia_status pia_fit_place(pia_fit *fit)
     pia_status status = PIA_OK;
     if (fit->options.start != NULL) {
         status = pia_fit_adopt_knots(fit, fit->options.start);
+    } else if (fit->placement != NULL && fit->placement->by_curvature) {
+        status = place_by_curvature(fit);
     } else {
         for (int d = 0; d < fit->directions && status == PIA_OK; d++) {
             if (fit->options.knots[0] != NULL)
@@ -212,6 +230,7 @@ pia_status pia_fit_place(pia_fit *fit)
         status = fit_into_domain(fit, d);
         if (status == PIA_OK && fit->closed[d] && fit->kind != PIA_SCATTERED) status = pia_fit_turn(fit, d);
     }
+    if (status == PIA_OK && fit->sequence == NULL && pia_fit_is_grouped(fit)) status = follow_knots(fit);
     return status;
 }
 

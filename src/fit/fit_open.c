@@ -3,6 +3,7 @@
 
 #include "model.h"
 #include "options.h"
+#include "sequence.h"
 
 #include <math.h>
 #include <string.h>
@@ -68,13 +69,20 @@ void pia_fit_set_progress(pia_fit *fit, int (*progress)(void *user, const pia_re
     fit->solve.rules.user = fit;
 }
 
+/* Where knots are added while no control point moves, that is no reason to stop. */
+static double default_change(const pia_fit *fit)
+{
+    int grows = fit->sequence != NULL && fit->sequence->grows && fit->options.tolerance > 0;
+    return grows ? 0 : PIA_FIT_CHANGE * fit->extent;
+}
+
 static void set_rules(pia_fit *fit)
 {
     const pia_fit_options *o = &fit->options;
     fit->solve.rules = (pia_rules){
         .tolerance = o->tolerance,
         .iterations = o->max_iterations == PIA_AUTO ? fit->solve.method->iterations : o->max_iterations,
-        .change = o->stop_change < 0 ? 1e-14 * fit->extent : o->stop_change,
+        .change = o->stop_change < 0 ? default_change(fit) : o->stop_change,
         .gradient = o->stop_gradient < 0 ? 1e-12 : o->stop_gradient,
         .time_limit = o->time_limit,
         .trace_every = o->trace_every,
@@ -110,7 +118,7 @@ static pia_status take_iterate(pia_fit *fit)
     iterate->adjust = pia_take(fit->context, size, sizeof(double));
     if (iterate->points == NULL || iterate->adjust == NULL) return PIA_E_MEMORY;
     unsigned needs = fit->solve.method->needs;
-    if (!fit->square) {
+    if (!fit->square && !pia_fit_is_grouped(fit)) {
         pia_status status = pia_normal_open_fair(fit->op, &iterate->targets, fit->options.fairing, &fit->normal);
         if (status != PIA_OK && (status != PIA_E_UNAVAILABLE || fit->options.fairing > 0)) return status;
         iterate->normal = fit->normal;
@@ -128,7 +136,7 @@ static pia_status take_iterate(pia_fit *fit)
 static pia_status scale_gradient(pia_fit *fit)
 {
     pia_iterate *iterate = &fit->iterate;
-    if (fit->square) return PIA_OK;
+    if (fit->square || pia_fit_is_grouped(fit)) return PIA_OK;
     if (iterate->normal != NULL) {
         iterate->right_norm = sqrt(pia_iterate_dot(iterate, iterate->normal->right, iterate->normal->right));
         return PIA_OK;
@@ -146,6 +154,7 @@ pia_status pia_fit_assemble(pia_fit *fit)
     drop_assembly(fit);
     pia_status status = pia_fit_operate(fit);
     if (status == PIA_OK) status = take_iterate(fit);
+    if (status == PIA_OK && pia_fit_is_grouped(fit)) status = pia_epia_group(fit);
     return status == PIA_OK ? scale_gradient(fit) : status;
 }
 
@@ -171,8 +180,9 @@ static pia_status open_stages(pia_fit *fit, const pia_data *data)
     if (status == PIA_OK) status = pia_fit_parametrize(fit, data);
     if (status == PIA_OK) status = pia_fit_place(fit);
     if (status == PIA_OK) status = pia_fit_assemble(fit);
-    if (status == PIA_OK) status = freeze_asked(fit);
     if (status == PIA_OK) status = pia_fit_initial(fit);
+    if (status == PIA_OK && fit->iterate.groups != NULL) status = pia_epia_validate(fit);
+    if (status == PIA_OK) status = freeze_asked(fit);
     if (status == PIA_OK) status = pia_fit_take_constraints(fit);
     if (status == PIA_OK) status = pia_fit_bind(fit);
     if (status != PIA_OK) return status;
@@ -222,6 +232,7 @@ void pia_fit_close(pia_fit *fit)
     pia_solve_end(&fit->solve);
     pia_fit_constraints_close(fit);
     drop_assembly(fit);
+    pia_sequence_close(fit);
     for (int d = 0; d < 2; d++) {
         pia_give(context, fit->knots[d]);
         if (!fit->borrowed_parameters) pia_give(context, fit->parameter[d]);

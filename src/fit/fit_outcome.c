@@ -1,6 +1,7 @@
 /* What is worth saying of the current result: written anew whenever the iteration stops or a model is taken, so that it is never stale.
  */
 #include "fit.h"
+#include "sequence.h"
 #include "shape.h"
 
 #include <stdio.h>
@@ -46,4 +47,5 @@ void pia_fit_conclude(pia_fit *fit)
     pia_notes_clear(pia_memory_of(fit->context), &fit->outcome);
     describe_shape(fit);
     pia_fit_describe_outliers(fit);
+    if (fit->iterate.groups != NULL) pia_epia_outcome(fit);
 }

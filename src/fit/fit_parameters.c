@@ -165,7 +165,8 @@ static pia_status separate(pia_fit *fit, int direction)
 pia_status pia_fit_parametrize(pia_fit *fit, const pia_data *data)
 {
     pia_status status = PIA_OK;
-    if (fit->function_graph) return fit->square ? merge_equal_abscissas(fit) : PIA_OK;
+    int apart = fit->square || pia_fit_by_line(fit); /* every row has a control point, or may get one */
+    if (fit->function_graph) return apart ? merge_equal_abscissas(fit) : PIA_OK;
     if (data->parameters != NULL) {
         fit->parametrization = NULL;
         if (fit->kind == PIA_SCATTERED) return take_given_pairs(fit, data->parameters);
@@ -174,9 +175,9 @@ pia_status pia_fit_parametrize(pia_fit *fit, const pia_data *data)
     } else {
         if (fit->kind == PIA_SCATTERED)
             return pia_fail(fit->context, PIA_E_UNAVAILABLE, "scattered points need parameters; give u,v of every row (--param FILE)");
-        if ((fit->square || fit->refining) && fit->directions == 1) status = drop_equal_points(fit);
+        if ((apart || fit->refining) && fit->directions == 1) status = drop_equal_points(fit);
         if (status == PIA_OK) status = compute(fit);
     }
-    for (int d = 0; status == PIA_OK && fit->square && d < fit->directions; d++) status = separate(fit, d);
+    for (int d = 0; status == PIA_OK && apart && fit->kind != PIA_SCATTERED && d < fit->directions; d++) status = separate(fit, d);
     return status;
 }

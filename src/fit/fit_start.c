@@ -5,6 +5,7 @@
 #include "basis.h"
 #include "knots.h"
 #include "model.h"
+#include "sequence.h"
 
 #include <math.h>
 #include <string.h>
@@ -14,6 +15,7 @@ static pia_index picked_row(const pia_fit *fit, int d, pia_index i)
 {
     pia_index n = fit->op->count[d], m = fit->count[d];
     if (fit->square) return i;
+    if (fit->sequence != NULL) return fit->sequence->chosen[d][i];
     if (!fit->closed[d]) {
         if (i == n - 1) return m - 1;
         pia_index at = n > 1 ? (pia_index)((double)m * (double)i / (double)(n - 1)) : 0;

@@ -1,5 +1,7 @@
 #include "refine.h"
 
+#include "sequence.h"
+
 #include <math.h>
 #include <string.h>
 
@@ -23,7 +25,10 @@ int pia_refine_reached(const pia_fit *fit)
 pia_status pia_refine(pia_fit *fit)
 {
     fit->began = pia_seconds() - fit->solve.seconds;
-    pia_status status = fit->directions == 1 ? pia_refine_curve(fit) : pia_refine_surface(fit);
+    int adds_lines = fit->placement != NULL && fit->placement->adds_lines;
+    pia_status status = adds_lines             ? pia_fit_dominant_columns(fit)
+                        : fit->directions == 1 ? pia_refine_curve(fit)
+                                               : pia_refine_surface(fit);
     if (status != PIA_OK) return status;
     if (fit->solve.stop == PIA_STOP_NONE) fit->solve.stop = pia_refine_reached(fit) ? PIA_STOP_TOLERANCE : PIA_STOP_NO_KNOT_LEFT;
     if (fit->solve.stop == PIA_STOP_NO_KNOT_LEFT)

@@ -5,6 +5,7 @@
 #include "normal.h"
 
 struct pia_constraints;
+struct pia_groups;
 
 typedef struct pia_iterate {
     pia_context *context;
@@ -18,6 +19,7 @@ typedef struct pia_iterate {
     double *residual;                    /* R [rows x dim]; NULL unless the method needs rows or there is no normal form */
     double right_norm;                   /* |A'W(Q - origin)|, the scale of relative gradients; 0: unknown, gradients are absolute */
     struct pia_constraints *constraints; /* NULL: none */
+    const struct pia_groups *groups;     /* of the rows, owned by the fit; NULL unless the method needs groups */
     pia_index iteration;                 /* updates done */
     pia_errors errors;                   /* of P, when errors_known */
     int errors_known;

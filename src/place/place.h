@@ -16,6 +16,8 @@ typedef struct pia_placement {
     const char *name, *title, *reference, *detail;
     int square; /* 1: the number of control points follows from that of the parameters (interpolation): as many, closed or not; for
                    pia2004 two more. 0: any number from degree + 1 */
+    int by_curvature; /* 1: the parameters are to be those of the lines that dominant.h chooses, one a control point */
+    int adds_lines;   /* 1: towards a tolerance, the lines of the worst points are added to them */
     /* Clamped at the first and the last parameter: knots [control + degree + 1]. Closed: knots [control + 2 degree + 1], period 1,
      * knots[i + control] == knots[i] + 1 exactly, and the domain [knots[degree], knots[degree] + 1] starts near 0 but seldom at it:
      * parameters are folded into it. Inside knots are at most degree-fold. Errors: PIA_E_SHAPE when the rule cannot make that many

@@ -89,7 +89,7 @@ static void measure_constraints(pia_iterate *iterate)
         iterate->constraint_error = pia_constraints_violation(iterate->constraints, iterate->points, NULL);
 }
 
-static pia_status add_trace(pia_solve *solve)
+pia_status pia_solve_trace(pia_solve *solve)
 {
     const pia_iterate *iterate = solve->iterate;
     pia_trace_row row = {.iteration = iterate->iteration,
@@ -128,7 +128,7 @@ static pia_status note_errors(pia_solve *solve)
         solve->window_iteration = iterate->iteration;
     }
     pia_index every = solve->rules.trace_every;
-    return every > 0 && iterate->iteration % every == 0 ? add_trace(solve) : PIA_OK;
+    return every > 0 && iterate->iteration % every == 0 ? pia_solve_trace(solve) : PIA_OK;
 }
 
 /* Keeps an iterate to return to; copies only where the error has halved since the last copy. */
@@ -229,7 +229,8 @@ static pia_status iterate_once(pia_solve *solve)
         iterate->adjust_max = last_change;
         return status;
     }
-    return status == PIA_OK ? update(solve, fused) : status;
+    if (status == PIA_OK) status = update(solve, fused);
+    return status == PIA_OK && solve->revise != NULL ? solve->revise(iterate) : status;
 }
 
 pia_status pia_solve_step(pia_solve *solve, pia_index iterations)
@@ -248,7 +249,7 @@ pia_status pia_solve_step(pia_solve *solve, pia_index iterations)
     pia_iterate_measure(iterate);
     measure_constraints(iterate);
     if (isnan(solve->start_error)) solve->start_error = iterate->errors.max;
-    if (solve->rules.trace_every > 0) status = add_trace(solve);
+    if (solve->rules.trace_every > 0) status = pia_solve_trace(solve);
     solve->seconds = pia_seconds() - start;
     return status;
 }

@@ -43,6 +43,9 @@ typedef struct pia_solve {
     int standing;              /* the last window changed the error by less than a hundredth */
     pia_index first_iteration; /* where it began, or was last edited: the count that max_iterations limits starts here */
     int begun;
+    /* NULL, or what may change the problem after an update (insert a knot), while R, errors and adjust_max are still those of the
+     * iterate before it. It calls pia_solve_restart where it did. */
+    pia_status (*revise)(pia_iterate *iterate);
 } pia_solve;
 
 /* Allocates the states and begins method and limiter. */
@@ -52,6 +55,8 @@ pia_status pia_solve_step(pia_solve *solve, pia_index iterations);
 /* Before going on after an edit: forgets the stop reason and what was known of the errors; history of accelerated methods starts anew.
  */
 pia_status pia_solve_restart(pia_solve *solve, const pia_values *method_values, const pia_values *limiter_values);
+/* A row of the trace for the current iterate, whose errors are known; nothing where its iteration has one. */
+pia_status pia_solve_trace(pia_solve *solve);
 void pia_solve_end(pia_solve *solve);
 
 /* Monotonic seconds. */

@@ -6,7 +6,7 @@
 #include <jansson.h>
 #include <stdlib.h>
 
-enum { MAX_CASES = 200 };
+enum { MAX_CASES = 200, MAX_LIST = 16 };
 
 typedef struct numbers {
     double *value;
@@ -37,13 +37,33 @@ static void read_pair(json_t *object, const char *key, pia_index out[2])
     for (size_t d = 0; d < 2 && pair != NULL && d < json_array_size(pair); d++) out[d] = json_integer_value(json_array_get(pair, d));
 }
 
-static void read_options(json_t *o, pia_fit_options *options, numbers knots[2])
+/* Lists of the options, which borrow them. */
+typedef struct lists {
+    const char *text[MAX_LIST];
+    pia_index row[MAX_LIST];
+} lists;
+
+static void read_lists(json_t *o, pia_fit_options *options, lists *list)
+{
+    json_t *texts = json_object_get(o, "method_options"), *rows = json_object_get(o, "interpolate");
+    assert_true(json_array_size(texts) <= MAX_LIST && json_array_size(rows) <= MAX_LIST);
+    for (size_t i = 0; i < json_array_size(texts); i++) list->text[i] = json_string_value(json_array_get(texts, i));
+    for (size_t i = 0; i < json_array_size(rows); i++) list->row[i] = json_integer_value(json_array_get(rows, i));
+    options->method_options = list->text;
+    options->method_option_count = (pia_index)json_array_size(texts);
+    options->interpolate = list->row;
+    options->interpolate_count = (pia_index)json_array_size(rows);
+}
+
+static void read_options(json_t *o, pia_fit_options *options, numbers knots[2], lists *list)
 {
     pia_index degree[2] = {3, 3}, closed[2] = {0, 0};
     pia_fit_options_init(options);
     read_pair(o, "degree", degree);
     read_pair(o, "closed", closed);
     read_pair(o, "control", options->control);
+    read_lists(o, options, list);
+    options->tolerance = number_or(o, "tolerance", 0);
     for (int d = 0; d < 2; d++) {
         options->degree[d] = (int)degree[d];
         options->closed[d] = (int)closed[d];
@@ -72,6 +92,8 @@ static void check_trace(pia_fit *fit, json_t *rows)
         pia_trace_row found = {0};
         for (pia_index k = 0; pia_fit_trace(fit, k, &found) && found.iteration != at; k++) continue;
         assert_int_equal(found.iteration, at);
+        if (json_object_get(row, "control_count") != NULL)
+            assert_int_equal(found.control_count, json_integer_value(json_object_get(row, "control_count")));
         if (json_object_get(row, "max_error") != NULL)
             assert_near(found.max_error, json_number_value(json_object_get(row, "max_error")), number_or(row, "tolerance", 0));
         if (json_object_get(row, "rms_error") != NULL)
@@ -113,6 +135,7 @@ static void check_case(pia_context *context, json_t *root)
 {
     pia_data data;
     pia_fit_options options;
+    lists list;
     numbers knots[2], points = read_numbers(json_object_get(root, "points")),
                       parameters = read_numbers(json_object_get(root, "parameters"));
     numbers weights = read_numbers(json_object_get(root, "weights"));
@@ -124,7 +147,7 @@ static void check_case(pia_context *context, json_t *root)
     data.parameters = parameters.value;
     data.weights = weights.value;
     assert_int_equal(points.count, data.count[0] * data.count[1] * data.dim);
-    read_options(json_object_get(root, "options"), &options, knots);
+    read_options(json_object_get(root, "options"), &options, knots, &list);
     json_t *expected = json_object_get(root, "expect");
     pia_fit *fit;
     assert_ok(context, pia_fit_open(context, &data, &options, &fit));
