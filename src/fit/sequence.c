@@ -1,6 +1,6 @@
 #include "sequence.h"
 
-#include "curvature.h"
+#include "discrete_curvature.h"
 #include "dominant.h"
 #include "epia.h"
 #include "knots.h"

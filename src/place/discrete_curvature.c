@@ -1,4 +1,4 @@
-#include "curvature.h"
+#include "discrete_curvature.h"
 
 #include <math.h>
 #include <string.h>

@@ -1,7 +1,7 @@
 /* Discrete curvature of ordered points after adaptive smoothing, by which dominant points are found and fences placed ([2011]
  * section 4; Teh and Chin 1989; Ray and Pandyan 2003). */
-#ifndef PIA_PLACE_CURVATURE_H
-#define PIA_PLACE_CURVATURE_H
+#ifndef PIA_PLACE_DISCRETE_CURVATURE_H
+#define PIA_PLACE_DISCRETE_CURVATURE_H
 
 #include "context.h"
 
