@@ -418,6 +418,7 @@ static pia_status get_records(walk *w, pia_fit *fit)
     if (status != PIA_OK) return status;
     fit->solve.method = pia_method_find(method);
     fit->parametrization = pia_param_find(parametrization);
+    fit->cloud = pia_cloud_find(parametrization);
     fit->placement = pia_place_find(placement);
     fit->solve.limiter = strcmp(limiter, "none") == 0 ? NULL : pia_limit_find(limiter);
     if (fit->solve.method != NULL && (fit->solve.limiter != NULL || strcmp(limiter, "none") == 0)) return PIA_OK;

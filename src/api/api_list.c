@@ -1,4 +1,5 @@
 /* The registries of the build, seen from outside. */
+#include "cloud.h"
 #include "io.h"
 #include "kernel.h"
 #include "limit.h"
@@ -51,8 +52,12 @@ int pia_list(const char *registry, pia_index index, pia_entry *out)
     if (strcmp(registry, "part") == 0) return list_parts(index, out);
     if (strcmp(registry, "limiter") == 0) return list_limiters(index, out);
     if (strcmp(registry, "parametrization") == 0) {
+        pia_index ordered = 0;
+        while (pia_param_list(ordered) != NULL) ordered++;
         const pia_parametrization *p = pia_param_list(index);
-        return p != NULL && fill(out, p->name, p->title, p->reference, p->detail);
+        const pia_cloud *c = pia_cloud_list(index - ordered);
+        if (p != NULL) return fill(out, p->name, p->title, p->reference, p->detail);
+        return c != NULL && fill(out, c->name, c->title, c->reference, c->detail);
     }
     if (strcmp(registry, "placement") == 0) {
         const pia_placement *p = pia_place_list(index);

@@ -11,6 +11,7 @@
 #ifndef PIA_FIT_FIT_H
 #define PIA_FIT_FIT_H
 
+#include "cloud.h"
 #include "normal.h"
 #include "notes.h"
 #include "param.h"
@@ -61,7 +62,8 @@ struct pia_fit {
 
     int square; /* interpolation */
     int degree[2], closed[2];
-    const pia_parametrization *parametrization; /* NULL: given */
+    const pia_parametrization *parametrization; /* NULL: given, or of a cloud */
+    const pia_cloud *cloud;                     /* of scattered points; NULL: given */
     const pia_placement *placement;             /* NULL: given */
     double *parameter[2];                       /* [count] a direction; scattered: u,v pairs in [0]; owned unless borrowed_parameters */
     int borrowed_parameters;

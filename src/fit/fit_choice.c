@@ -251,6 +251,15 @@ pia_status pia_fit_choose(pia_fit *fit)
     if (status == PIA_OK) status = choose_placement(fit);
     const char *name = fit->options.parametrization;
     if (status != PIA_OK || fit->parameter[0] != NULL) return status;
+    if (fit->kind == PIA_SCATTERED) {
+        fit->cloud = pia_cloud_find(name != NULL ? name : "plane");
+        return fit->cloud != NULL
+                   ? PIA_OK
+                   : pia_fail(fit->context, PIA_E_ARGUMENT,
+                              "parametrization %s is not one of scattered points; there are xy, plane, cylinder, sphere", name);
+    }
+    if (name != NULL && pia_cloud_find(name) != NULL)
+        return pia_fail(fit->context, PIA_E_ARGUMENT, "parametrization %s is one of scattered points (--surface)", name);
     fit->parametrization = pia_param_find(name != NULL ? name : "chord");
     return fit->parametrization != NULL ? PIA_OK : unknown(fit, "parametrization", name);
 }
@@ -259,7 +268,9 @@ void pia_fit_names(const pia_fit *fit, pia_report *report)
 {
     copy_name(report->method, sizeof report->method, fit->solve.method->name);
     copy_name(report->parametrization, sizeof report->parametrization,
-              fit->parametrization != NULL ? fit->parametrization->name : "given");
+              fit->parametrization != NULL ? fit->parametrization->name
+              : fit->cloud != NULL         ? fit->cloud->name
+                                           : "given");
     copy_name(report->placement, sizeof report->placement,
               fit->refining            ? "adaptive"
               : fit->placement != NULL ? fit->placement->name

@@ -162,6 +162,24 @@ static pia_status separate(pia_fit *fit, int direction)
     return status;
 }
 
+/* Scattered points on the base surface that was asked for. */
+static pia_status parametrize_cloud(pia_fit *fit)
+{
+    int around;
+    if (fit->rows < 3 || fit->dim < fit->cloud->dim)
+        return pia_fail(fit->context, PIA_E_DATA,
+                        "parametrization %s needs at least three points of %d components; these are %lld of %d", fit->cloud->name,
+                        fit->cloud->dim, (long long)fit->rows, fit->dim);
+    fit->parameter[0] = pia_take(fit->context, 2 * fit->rows, sizeof(double));
+    if (fit->parameter[0] == NULL) return PIA_E_MEMORY;
+    pia_status status = fit->cloud->compute(fit->context, fit->points, fit->rows, fit->dim, fit->parameter[0], &around);
+    if (status == PIA_OK && around) {
+        fit->closed[0] = 1;
+        pia_fit_note_add(fit, "direction u is closed: the points go all the way round the %s", fit->cloud->name);
+    }
+    return status;
+}
+
 pia_status pia_fit_parametrize(pia_fit *fit, const pia_data *data)
 {
     pia_status status = PIA_OK;
@@ -169,12 +187,12 @@ pia_status pia_fit_parametrize(pia_fit *fit, const pia_data *data)
     if (fit->function_graph) return apart ? merge_equal_abscissas(fit) : PIA_OK;
     if (data->parameters != NULL) {
         fit->parametrization = NULL;
+        fit->cloud = NULL;
         if (fit->kind == PIA_SCATTERED) return take_given_pairs(fit, data->parameters);
         for (int d = 0; status == PIA_OK && d < fit->directions; d++)
             status = take_given(fit, data->parameters + (d == 0 ? 0 : data->count[0]), d, fit->count[d], data->count[d]);
     } else {
-        if (fit->kind == PIA_SCATTERED)
-            return pia_fail(fit->context, PIA_E_UNAVAILABLE, "scattered points need parameters; give u,v of every row (--param FILE)");
+        if (fit->kind == PIA_SCATTERED) return parametrize_cloud(fit);
         if ((apart || fit->refining) && fit->directions == 1) status = drop_equal_points(fit);
         if (status == PIA_OK) status = compute(fit);
     }
