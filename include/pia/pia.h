@@ -262,8 +262,8 @@ pia_status pia_fit_residuals(pia_fit *fit, double *out);
 /* Parameters used. `count` receives the number of values, `row` (NULL allowed) the data row of each; arrays borrowed until the next
  * edit. Curve: one a used row; grid: u then v; scattered: u,v pairs. */
 pia_status pia_fit_parameters(pia_fit *fit, const double **parameters, pia_index *count, const pia_index **row);
-/* Factors in [0, 1] that the robust loss gave the rows used, in their order: 1 is a row fully trusted, below 0.5 an outlier. `row` (NULL
- * allowed) as above; arrays borrowed until the next step or edit. NULL and 0 without a robust loss. */
+/* Factors in [0, 1] that the robust loss gave the rows used, in their order: 1 is a row fully trusted, below 0.5 an outlier. `row`
+ * (NULL allowed) as above; arrays borrowed until the next step or edit. NULL and 0 without a robust loss. */
 pia_status pia_fit_weights(pia_fit *fit, const double **weights, const pia_index **row, pia_index *count);
 /* Row `index` of the trace; returns 0 past the end. */
 int pia_fit_trace(const pia_fit *fit, pia_index index, pia_trace_row *out);
