@@ -7,7 +7,7 @@
  *   fit_constrain.c   points and derivatives met exactly             fit_outcome.c  what is worth saying of the result
  *   fit_robust.c      weights of a robust loss                       fit_epia.c     groups and knot insertion of [2011]
  *   sequence*.c       control points that stand for data lines       fit_dominant.c Park's dominant columns
- *   refine*.c         knots for a tolerance */
+ *   refine*.c         knots for a tolerance                         fit_corners.c  corners, found or given */
 #ifndef PIA_FIT_FIT_H
 #define PIA_FIT_FIT_H
 
@@ -84,18 +84,22 @@ struct pia_fit {
     pia_solve solve;
     pia_values method_values, limiter_values;
     pia_robust robust;
-    pia_notes notes, outcome; /* what was done; what is to be said of the current result, after the other notes */
-    int refining;             /* knots are still to be found for a tolerance */
-    pia_index round;          /* rounds of growing, sparing, correcting */
-    double began;             /* of a refinement: when it would have begun if it had not been interrupted */
-    double *all_parameters;   /* of a grid, u then v, once asked for; NULL before */
-    double seconds;           /* spent in opening */
+    pia_notes notes, outcome;        /* what was done; what is to be said of the current result, after the other notes */
+    int refining;                    /* knots are still to be found for a tolerance */
+    pia_index round;                 /* rounds of growing, sparing, correcting */
+    pia_index *corner, corner_count; /* rows used that are corners, rising, without the ends */
+    int pinned;                      /* 1: the ends of the curve are the first and the last row */
+    double began;                    /* of a refinement: when it would have begun if it had not been interrupted */
+    double *all_parameters;          /* of a grid, u then v, once asked for; NULL before */
+    double seconds;                  /* spent in opening */
 };
 
 pia_status pia_fit_take_data(pia_fit *fit, const pia_data *data);
 pia_status pia_fit_choose(pia_fit *fit);
 /* The names of what was chosen, into a report. */
 void pia_fit_names(const pia_fit *fit, pia_report *report);
+/* Corners of a curve that is to be refined; a closed one is opened at its first corner. Before its parameters are computed. */
+pia_status pia_fit_take_corners(pia_fit *fit);
 pia_status pia_fit_parametrize(pia_fit *fit, const pia_data *data);
 pia_status pia_fit_place(pia_fit *fit);
 pia_status pia_fit_operate(pia_fit *fit);

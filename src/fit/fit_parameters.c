@@ -194,6 +194,7 @@ pia_status pia_fit_parametrize(pia_fit *fit, const pia_data *data)
     } else {
         if (fit->kind == PIA_SCATTERED) return parametrize_cloud(fit);
         if ((apart || fit->refining) && fit->directions == 1) status = drop_equal_points(fit);
+        if (status == PIA_OK) status = pia_fit_take_corners(fit);
         if (status == PIA_OK) status = compute(fit);
     }
     for (int d = 0; status == PIA_OK && apart && fit->kind != PIA_SCATTERED && d < fit->directions; d++) status = separate(fit, d);

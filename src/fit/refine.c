@@ -98,13 +98,27 @@ double pia_refine_knot_cost(const double *knot, const double *points, int degree
     return left + right > 0 ? sqrt(square) * pow(left * right / (left + right), degree) : 0;
 }
 
+/* The first and the last control point are the first and the last row, and stay. */
+static pia_status pin_ends(pia_fit *fit)
+{
+    pia_index end[] = {0, fit->op->cols - 1}, row[] = {0, fit->rows - 1};
+    pia_status status = PIA_OK;
+    for (int k = 0; k < 2 && status == PIA_OK; k++) {
+        status = pia_op_freeze(fit->op, end[k], 1);
+        for (int d = 0; d < fit->dim; d++)
+            fit->iterate.points[end[k] * fit->dim + d] = fit->points[row[k] * fit->dim + d] - fit->origin[d];
+    }
+    return status;
+}
+
 pia_status pia_refine_solve(pia_fit *fit)
 {
     pia_iterate *iterate = &fit->iterate;
     size_t bytes = (size_t)(fit->op->cols * fit->dim) * sizeof(double);
     memset(iterate->points, 0, bytes);
     iterate->errors_known = 0;
-    pia_status status = iterate->normal->class->factor(iterate->normal);
+    pia_status status = fit->pinned ? pin_ends(fit) : PIA_OK;
+    if (status == PIA_OK) status = iterate->normal->class->factor(iterate->normal);
     for (int step = 0; step < 2 && status == PIA_OK; step++) {
         pia_iterate_gradient(iterate, iterate->adjust);
         iterate->normal->class->solve(iterate->normal, iterate->adjust, fit->dim);

@@ -26,9 +26,23 @@ static pia_status move_to_feet(pia_fit *fit)
     return status;
 }
 
+/* Corners are knots of full multiplicity. */
+static pia_status place_corners(pia_fit *fit)
+{
+    int p = fit->degree[0];
+    if (fit->corner_count == 0) return PIA_OK;
+    double *inside = pia_take(fit->context, fit->corner_count * p, sizeof *inside);
+    if (inside == NULL) return PIA_E_MEMORY;
+    for (pia_index k = 0; k < fit->corner_count * p; k++) inside[k] = fit->parameter[0][fit->corner[k / p]];
+    pia_status status = pia_refine_place(fit, 0, inside, fit->corner_count * p);
+    pia_give(fit->context, inside);
+    return status == PIA_OK ? pia_fit_assemble(fit) : status;
+}
+
 static pia_status grow_until_kept(pia_fit *fit)
 {
-    pia_status status = pia_refine_solve(fit);
+    pia_status status = place_corners(fit);
+    if (status == PIA_OK) status = pia_refine_solve(fit);
     int more = 1;
     for (int k = 0; k < MAX_GROWTH && status == PIA_OK && more && !pia_refine_reached(fit) && !pia_refine_stopped(fit); k++) {
         status = pia_refine_grow(fit, &more);

@@ -38,6 +38,7 @@ static int merge_knots(pia_draft *draft, pia_index j)
     pia_index first, end;
     pia_draft_inside(draft, &first, &end);
     if (j + 1 >= end && !draft->cyclic) return 0;
+    if (draft->mark[(j + 1) % draft->count] & PIA_DRAFT_KEPT) return 0;
     double here = pia_draft_knot(draft, j), next = pia_draft_knot(draft, j + 1);
     double left = knot_cost(draft, j), right = knot_cost(draft, j + 1), share = left + right > 0 ? right / (left + right) : 0.5;
     double knot = here + fmin(fmax(share, 0.25), 0.75) * (next - here);
@@ -69,7 +70,7 @@ static pia_index sweep(pia_draft *draft, int merge, candidate *order)
 /* The whole curve, and a pass over it in segments that begin at control points cut[0], cut[1], ... */
 typedef struct pass {
     pia_draft_data data;
-    int degree, dim, closed;
+    int degree, dim, closed, pinned;
     pia_index count;           /* control points */
     double *knots;             /* open: [count + degree + 1]; closed: one period [count] */
     double *control;           /* [count x dim] */
@@ -112,8 +113,8 @@ static void cut_out(pass *s, int shifted, double *store, unsigned char *marks)
         pia_index begin = cut(s, k, shifted), count = cut(s, k + 1, shifted) - begin, knots = count + (is_cyclic(s) ? 0 : p + 1);
         pia_draft *d = &s->draft[k];
         *d = (pia_draft){.data = &s->data, .degree = p, .dim = dim, .cyclic = is_cyclic(s), .count = count};
-        d->held[0] = s->closed || k > 0;
-        d->held[1] = s->closed || k + 1 < s->segments;
+        d->stays[0] = s->closed || k > 0 ? p : s->pinned;
+        d->stays[1] = s->closed || k + 1 < s->segments ? p : s->pinned;
         d->knots = store;
         d->control = store + knots;
         d->mark = marks;
@@ -197,7 +198,7 @@ static pia_status open_pass(pia_fit *fit, pass *s)
 {
     pia_context *context = fit->context;
     pia_index count = fit->op->cols, knots = count + fit->degree[0] + 1;
-    *s = (pass){.degree = fit->degree[0], .dim = fit->dim, .closed = fit->closed[0], .count = count};
+    *s = (pass){.degree = fit->degree[0], .dim = fit->dim, .closed = fit->closed[0], .pinned = fit->pinned, .count = count};
     s->data = (pia_draft_data){.parameters = fit->parameter[0],
                                .points = fit->points,
                                .origin = fit->origin,
@@ -212,6 +213,8 @@ static pia_status open_pass(pia_fit *fit, pass *s)
     s->critical = pia_take_zero(context, fit->rows, 1);
     if (s->knots == NULL || s->control == NULL || s->mark == NULL || s->critical == NULL) return PIA_E_MEMORY;
     memcpy(s->knots, fit->knots[0], (size_t)knots * sizeof(double));
+    for (pia_index j = 1; j < knots; j++)
+        if (s->knots[j] == s->knots[j - 1]) s->mark[j] = s->mark[j - 1] = PIA_DRAFT_KEPT; /* corners */
     memcpy(s->control, fit->iterate.points, (size_t)(count * s->dim) * sizeof(double));
     return PIA_OK;
 }

@@ -26,8 +26,8 @@ const double *pia_draft_point(const pia_draft *draft, pia_index i)
 void pia_draft_inside(const pia_draft *draft, pia_index *first, pia_index *end)
 {
     int p = draft->degree;
-    *first = draft->cyclic ? 0 : draft->held[0] ? 2 * p + 1 : p + 1;
-    *end = draft->held[1] ? draft->count - p : draft->count;
+    *first = draft->cyclic ? 0 : draft->stays[0] == p ? 2 * p + 1 : p + 1;
+    *end = draft->stays[1] == p ? draft->count - p : draft->count;
 }
 
 pia_index pia_draft_find(const pia_draft *draft, double knot)
@@ -78,7 +78,7 @@ static void cut_piece(const pia_draft *draft, pia_index first, int removed, cons
 {
     int p = draft->degree, dim = draft->dim, fewer = removed - inserted;
     pia_index low = first - p - reach, high = first + removed - 1 + reach; /* free, in the old numbering */
-    pia_index least = draft->held[0] ? p : 0, most = draft->count - 1 - (draft->held[1] ? p : 0);
+    pia_index least = draft->stays[0], most = draft->count - 1 - draft->stays[1];
     if (low < least) low = least;
     if (high > most) high = most;
     pia_index base = low > p ? low - p : 0, top = high + p < draft->count - 1 ? high + p : draft->count - 1;
@@ -149,7 +149,7 @@ static void find_rows(const pia_draft *draft, pia_window *w)
 {
     int p = draft->degree;
     double begin = w->knots[draft->cyclic ? p : w->first], end = draft->cyclic ? begin + 1 : w->knots[w->first + w->free + p];
-    int open_end = !draft->cyclic && !draft->held[1] && end >= draft->knots[draft->count];
+    int open_end = !draft->cyclic && draft->stays[1] < p && end >= draft->knots[draft->count];
     w->row = pia_draft_lower_row(draft->data, begin);
     w->rows = (open_end && !draft->data->periodic ? draft->data->rows : pia_draft_lower_row(draft->data, end)) - w->row;
 }

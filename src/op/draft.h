@@ -23,7 +23,7 @@ enum { PIA_DRAFT_SPARED = 1, PIA_DRAFT_MERGED = 2, PIA_DRAFT_KEPT = 4 };
 typedef struct pia_draft {
     const pia_draft_data *data;
     int degree, dim, cyclic;
-    int held[2];         /* 1: this end was cut off from a longer curve; its `degree` control points stay */
+    int stays[2];        /* control points that stay at either end: `degree` where the draft was cut off from a longer curve */
     pia_index count;     /* control points; of a cyclic draft the distinct ones */
     double *knots;       /* [count + degree + 1]; cyclic: one period [count] */
     double *control;     /* [count x dim], relative to origin */

@@ -223,6 +223,87 @@ static void surfaces_keep_the_tolerance(void **state)
     pia_context_destroy(context);
 }
 
+/* A 'D' of the given number of points at equal steps, rounded to 0.01: corners at (0,0) and (0,7). */
+static problem letter_d(double tolerance)
+{
+    enum { COUNT = 269 };
+    problem p = wavy(3, 1, 2, COUNT, tolerance);
+    double ellipse = 10.22, total = 7 + 3 + ellipse + 3; /* the length of the half ellipse, nearly */
+    for (int i = 0; i < COUNT; i++) {
+        double s = total * i / (COUNT - 1), *q = p.points + 2 * i;
+        double angle = 1.5707963267948966 - 3.141592653589793 * (s - 10) / ellipse;
+        q[0] = s < 7 ? 0 : s < 10 ? s - 7 : s < 10 + ellipse ? 3 + 3 * cos(angle) : total - s;
+        q[1] = s < 7 ? s : s < 10 ? 7 : s < 10 + ellipse ? 3.5 + 3.5 * sin(angle) : 0;
+        for (int d = 0; d < 2; d++) q[d] = round(100 * q[d]) / 100;
+    }
+    return p;
+}
+
+static void a_letter_needs_few_control_points(void **state)
+{
+    (void)state;
+    pia_context *context;
+    assert_ok(NULL, pia_context_create(NULL, &context));
+    problem p = letter_d(0.03);
+    check_problem(context, &p, 14);
+    p.options.corner_count = PIA_AUTO;
+    check_problem(context, &p, 14);
+    free(p.points);
+    pia_context_destroy(context);
+}
+
+/* The largest distance from the point to the curve. */
+static double distance_to(pia_context *context, const pia_model *model, double x, double y)
+{
+    double point[] = {x, y}, parameter, distance;
+    assert_ok(context, pia_model_closest(context, model, point, 1, &parameter, &distance));
+    return distance;
+}
+
+static void corners_are_sharp_whether_found_or_given(void **state)
+{
+    (void)state;
+    static const pia_index given[] = {0, 81};
+    pia_context *context;
+    assert_ok(NULL, pia_context_create(NULL, &context));
+    for (int k = 0; k < 2; k++) {
+        problem p = letter_d(0.03);
+        pia_model *model;
+        pia_model_info info = {.struct_size = sizeof info};
+        p.options.corners = given;
+        p.options.corner_count = k == 0 ? 2 : PIA_AUTO;
+        assert_ok(context, pia_fit_data(context, &p.data, &p.options, &model, NULL));
+        pia_model_get_info(model, &info);
+        double ends[4];
+        assert_ok(context, pia_model_eval(context, model, info.domain[0], 2, 0, ends));
+        assert_near(ends[0], ends[2], 0);
+        assert_near(ends[1], ends[3], 0);
+        assert_near(distance_to(context, model, 0, 0), 0, 1e-12);
+        pia_index repeated = 0;
+        const double *knots = pia_model_knots(model, 0);
+        for (pia_index i = 4; i + 3 < info.control[0]; i++) repeated += knots[i] == knots[i + 2];
+        assert_int_equal(repeated, 1);
+        pia_model_destroy(model);
+        free(p.points);
+    }
+    pia_context_destroy(context);
+}
+
+static void a_corner_that_does_not_exist_is_refused(void **state)
+{
+    (void)state;
+    static const pia_index given[] = {500};
+    pia_context *context;
+    pia_fit *fit;
+    assert_ok(NULL, pia_context_create(NULL, &context));
+    problem p = letter_d(0.03);
+    p.options.corners = given;
+    p.options.corner_count = 1;
+    assert_status(context, pia_fit_open(context, &p.data, &p.options, &fit), PIA_E_ARGUMENT);
+    free(p.points);
+    pia_context_destroy(context);
+}
+
 static void what_cannot_be_had_is_said(void **state)
 {
     (void)state;
@@ -278,6 +359,9 @@ int main(void)
         cmocka_unit_test(tolerances_a_point_are_kept),
         cmocka_unit_test(the_number_of_threads_changes_no_bit),
         cmocka_unit_test(surfaces_keep_the_tolerance),
+        cmocka_unit_test(a_letter_needs_few_control_points),
+        cmocka_unit_test(corners_are_sharp_whether_found_or_given),
+        cmocka_unit_test(a_corner_that_does_not_exist_is_refused),
         cmocka_unit_test(what_cannot_be_had_is_said),
         cmocka_unit_test(a_cancelled_fit_keeps_a_model),
     };
