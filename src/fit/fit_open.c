@@ -102,7 +102,7 @@ static void drop_assembly(pia_fit *fit)
     pia_give(fit->context, iterate->points);
     pia_give(fit->context, iterate->adjust);
     pia_give(fit->context, iterate->residual);
-    *iterate = (pia_iterate){.iteration = iterate->iteration};
+    *iterate = (pia_iterate){.context = fit->context, .iteration = iterate->iteration};
 }
 
 static pia_status take_iterate(pia_fit *fit)

@@ -27,6 +27,15 @@ static problem curve_problem(const char *method)
     return p;
 }
 
+/* Knots are inserted on the way to the tolerance. */
+static problem epia_problem(void)
+{
+    problem p = curve_problem("epia");
+    p.options.tolerance = 0.01;
+    p.options.max_iterations = 12;
+    return p;
+}
+
 static problem grid_problem(const char *method)
 {
     problem p = curve_problem(method);
@@ -107,9 +116,28 @@ static void a_grid_fit_survives_every_failure(void **state)
     survive_with_every_method(grid_problem);
 }
 
+static void knot_insertion_survives_every_failure(void **state)
+{
+    (void)state;
+    problem p = epia_problem();
+    assert_survives_failures(fit_in_one_call, &p);
+    assert_survives_failures(fit_step_by_step, &p);
+}
+
+static void dominant_columns_survive_every_failure(void **state)
+{
+    (void)state;
+    problem p = grid_problem("direct");
+    p.options.placement = "dominant-columns";
+    p.options.tolerance = 0.1;
+    assert_survives_failures(fit_in_one_call, &p);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(knot_insertion_survives_every_failure),
+        cmocka_unit_test(dominant_columns_survive_every_failure),
         cmocka_unit_test(a_curve_fit_survives_every_failure),
         cmocka_unit_test(a_grid_fit_survives_every_failure),
     };
