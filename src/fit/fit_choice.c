@@ -264,6 +264,12 @@ pia_status pia_fit_choose(pia_fit *fit)
     return fit->parametrization != NULL ? PIA_OK : unknown(fit, "parametrization", name);
 }
 
+static const char *placement_name(const pia_fit *fit)
+{
+    if (fit->refining && !(fit->placement != NULL && fit->placement->adds_lines)) return "adaptive";
+    return fit->placement != NULL ? fit->placement->name : "given";
+}
+
 void pia_fit_names(const pia_fit *fit, pia_report *report)
 {
     copy_name(report->method, sizeof report->method, fit->solve.method->name);
@@ -271,9 +277,6 @@ void pia_fit_names(const pia_fit *fit, pia_report *report)
               fit->parametrization != NULL ? fit->parametrization->name
               : fit->cloud != NULL         ? fit->cloud->name
                                            : "given");
-    copy_name(report->placement, sizeof report->placement,
-              fit->refining            ? "adaptive"
-              : fit->placement != NULL ? fit->placement->name
-                                       : "given");
+    copy_name(report->placement, sizeof report->placement, placement_name(fit));
     copy_name(report->limiter, sizeof report->limiter, fit->solve.limiter != NULL ? fit->solve.limiter->name : "none");
 }

@@ -5,6 +5,7 @@
 
 #include <math.h>
 #include <stdio.h>
+#include <string.h>
 
 /* ---- knot insertion ---- */
 
@@ -114,6 +115,54 @@ pia_status pia_epia_group(pia_fit *fit)
     fit->iterate.groups = &s->groups;
     fit->solve.revise = revise;
     return status;
+}
+
+/* ---- the start of scattered points ---- */
+
+/* Adds the control points beside c that are known to the sum; returns how many. */
+static int add_neighbours(const pia_fit *fit, const unsigned char *known, pia_index c, double *sum)
+{
+    pia_index across = fit->op->count[1], column = c % across;
+    const pia_index beside[4] = {c - across, c + across, column > 0 ? c - 1 : -1, column + 1 < across ? c + 1 : -1};
+    int found = 0;
+    for (int k = 0; k < 4; k++) {
+        if (beside[k] < 0 || beside[k] >= fit->op->cols || !known[beside[k]]) continue;
+        found++;
+        for (int d = 0; d < fit->dim; d++) sum[d] += fit->iterate.points[beside[k] * fit->dim + d];
+    }
+    return found;
+}
+
+/* Control points without data take the mean of their neighbours, from those with data outwards. */
+static pia_status fill_empty(pia_fit *fit)
+{
+    const pia_groups *groups = fit->iterate.groups;
+    unsigned char *known = pia_take(fit->context, fit->op->cols, 1);
+    pia_index left = pia_groups_empty(groups);
+    if (known == NULL) return PIA_E_MEMORY;
+    for (pia_index c = 0; c < fit->op->cols; c++) known[c] = groups->start[c + 1] > groups->start[c];
+    while (left > 0)
+        for (pia_index c = 0; c < fit->op->cols; c++) {
+            double sum[PIA_MAX_DIM] = {0};
+            int found = known[c] ? 0 : add_neighbours(fit, known, c, sum);
+            if (found == 0) continue;
+            for (int d = 0; d < fit->dim; d++) fit->iterate.points[c * fit->dim + d] = sum[d] / found;
+            known[c] = 1;
+            left--;
+        }
+    pia_give(fit->context, known);
+    return PIA_OK;
+}
+
+pia_status pia_epia_start(pia_fit *fit)
+{
+    pia_iterate *iterate = &fit->iterate;
+    memset(iterate->points, 0, (size_t)(fit->op->cols * fit->dim) * sizeof(double));
+    iterate->errors_known = 0;
+    pia_iterate_measure(iterate);
+    pia_groups_mean(fit->context, iterate->groups, iterate->residual, fit->dim, 1, iterate->points);
+    iterate->errors_known = 0;
+    return fill_empty(fit);
 }
 
 /* ---- the validity check ---- */

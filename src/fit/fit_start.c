@@ -83,6 +83,7 @@ pia_status pia_fit_adopt_control(pia_fit *fit, const pia_model *start)
 pia_status pia_fit_initial(pia_fit *fit)
 {
     if (fit->options.start != NULL) return pia_fit_adopt_control(fit, fit->options.start);
+    if (fit->kind == PIA_SCATTERED && pia_fit_is_grouped(fit)) return pia_epia_start(fit);
     if (fit->kind == PIA_SCATTERED || fit->has_holes)
         from_means(fit);
     else

@@ -46,9 +46,10 @@ pia_status pia_sequence_pick(pia_fit *fit, pia_index most, pia_index *picked);
  * which the means then replace, so that the shape moves a little; 0: they are left undefined. */
 pia_status pia_sequence_grow(pia_fit *fit, int carry);
 
-/* Method epia. Groups for the current operator, and knot insertion for the loop; the validity check of Eq. (47) before the first
- * iteration; what the outcome tells. */
+/* Method epia. Groups for the current operator, and knot insertion for the loop; control points that are the means of their groups, for
+ * scattered points; the validity check of Eq. (47) before the first iteration; what the outcome tells. */
 pia_status pia_epia_group(pia_fit *fit);
+pia_status pia_epia_start(pia_fit *fit);
 pia_status pia_epia_validate(pia_fit *fit);
 void pia_epia_outcome(pia_fit *fit);
 
