@@ -154,6 +154,9 @@ static pia_status choose_method(pia_fit *fit)
     if (fit->square && fit->has_holes)
         return pia_fail(fit->context, PIA_E_ARGUMENT,
                         "method %s interpolates and cannot leave out points without a value; use direct, lspia or cg", name);
+    if (fit->refining && fit->options.freeze_count > 0)
+        return pia_fail(fit->context, PIA_E_ARGUMENT,
+                        "control points can be frozen where their number is given, not while knots are placed");
     pia_index beyond = fit->options.constraint_count + ((needs & PIA_NEEDS_GROUPS) != 0 ? 0 : fit->options.interpolate_count);
     if (beyond > 0 && (needs & PIA_KNOWS_CONSTRAINTS) == 0)
         return pia_fail(fit->context, PIA_E_ARGUMENT, "method %s knows no constraints; use clspia, clspia-pcg or direct", name);

@@ -35,17 +35,13 @@ static pia_status refresh(pia_fit *fit, pia_index row)
 /* Rows or weights have changed shape: operator and normal form anew, control points, frozen ones included, as they were. */
 static pia_status reassemble(pia_fit *fit)
 {
-    pia_index cols = fit->op->cols, size = cols * fit->dim;
+    pia_index size = fit->op->cols * fit->dim;
     double *points = pia_take(fit->context, size, sizeof *points);
-    unsigned char *frozen = fit->op->frozen;
     if (points == NULL) return PIA_E_MEMORY;
-    fit->op->frozen = NULL;
     memcpy(points, fit->iterate.points, (size_t)size * sizeof *points);
     pia_status status = pia_fit_assemble(fit);
     if (status == PIA_OK) memcpy(fit->iterate.points, points, (size_t)size * sizeof *points);
-    for (pia_index c = 0; status == PIA_OK && frozen != NULL && c < cols; c++) status = pia_op_freeze(fit->op, c, frozen[c]);
     pia_give(fit->context, points);
-    pia_give(fit->context, frozen);
     if (status == PIA_OK) status = pia_fit_bind(fit);
     return status == PIA_OK ? pia_fit_restart(fit) : status;
 }
@@ -245,5 +241,6 @@ pia_status pia_fit_freeze(pia_fit *fit, const pia_index *control, pia_index coun
     pia_status status = PIA_OK;
     for (pia_index i = 0; i < count && status == PIA_OK; i++)
         status = pia_op_freeze(fit->op, pia_op_unknown(fit->op, control[i]), frozen);
-    return status == PIA_OK ? pia_fit_restart(fit) : status;
+    if (status != PIA_OK) return status;
+    return fit->directions == 2 && fit->normal != NULL ? reassemble(fit) : pia_fit_restart(fit);
 }

@@ -149,15 +149,6 @@ static pia_status scale_gradient(pia_fit *fit)
     return PIA_OK;
 }
 
-pia_status pia_fit_assemble(pia_fit *fit)
-{
-    drop_assembly(fit);
-    pia_status status = pia_fit_operate(fit);
-    if (status == PIA_OK) status = take_iterate(fit);
-    if (status == PIA_OK && pia_fit_is_grouped(fit)) status = pia_epia_group(fit);
-    return status == PIA_OK ? scale_gradient(fit) : status;
-}
-
 static pia_status freeze_asked(pia_fit *fit)
 {
     for (pia_index i = 0; i < fit->options.freeze_count; i++) {
@@ -168,7 +159,27 @@ static pia_status freeze_asked(pia_fit *fit)
         pia_status status = pia_op_freeze(fit->op, pia_op_unknown(fit->op, control), 1);
         if (status != PIA_OK) return status;
     }
+    fit->options.freeze_count = 0; /* from here on the operator knows */
     return PIA_OK;
+}
+
+/* What is frozen decides which normal form an operator has, so it is known before that is made; it stays while the control points do.
+ */
+pia_status pia_fit_assemble(pia_fit *fit)
+{
+    pia_index cols = fit->op != NULL ? fit->op->cols : 0;
+    unsigned char *frozen = fit->op != NULL ? fit->op->frozen : NULL;
+    if (fit->op != NULL) fit->op->frozen = NULL;
+    drop_assembly(fit);
+    pia_status status = pia_fit_operate(fit);
+    if (status == PIA_OK && fit->op->cols == cols)
+        fit->op->frozen = frozen;
+    else
+        pia_give(fit->context, frozen);
+    if (status == PIA_OK) status = freeze_asked(fit);
+    if (status == PIA_OK) status = take_iterate(fit);
+    if (status == PIA_OK && pia_fit_is_grouped(fit)) status = pia_epia_group(fit);
+    return status == PIA_OK ? scale_gradient(fit) : status;
 }
 
 static pia_status open_stages(pia_fit *fit, const pia_data *data)
