@@ -89,6 +89,8 @@ struct pia_fit {
     pia_index round;                 /* rounds of growing, sparing, correcting */
     pia_index *corner, corner_count; /* rows used that are corners, rising, without the ends */
     int pinned;                      /* 1: the ends of the curve are the first and the last row */
+    pia_index refined_until;         /* of a refinement: the iteration at which it pauses */
+    int paused;                      /* 1: it did, with work left */
     double began;                    /* of a refinement: when it would have begun if it had not been interrupted */
     double *all_parameters;          /* of a grid, u then v, once asked for; NULL before */
     double seconds;                  /* spent in opening */

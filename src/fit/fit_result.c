@@ -18,7 +18,7 @@ pia_status pia_fit_step(pia_fit *fit, pia_index iterations, pia_report *report)
 {
     if (iterations < 0) return pia_fail(fit->context, PIA_E_ARGUMENT, "%lld iterations are not a count", (long long)iterations);
     int refine = fit->refining && fit->solve.stop == PIA_STOP_NONE;
-    pia_status status = refine ? pia_refine(fit) : step(fit, iterations);
+    pia_status status = refine ? pia_refine(fit, iterations) : step(fit, iterations);
     if (status == PIA_OK && fit->solve.stop != PIA_STOP_NONE) pia_fit_conclude(fit);
     if (status == PIA_OK && report != NULL) status = pia_fit_report(fit, report);
     return status;
@@ -73,6 +73,7 @@ pia_status pia_fit_report(pia_fit *fit, pia_report *report)
     full.rate = fit->solve.rate;
     full.unsupported_count = iterate->normal != NULL ? iterate->normal->weak : 0;
     full.outlier_count = fit->robust.outliers;
+    full.measure_distance = fit->refining && fit->options.measure_distance && iterate->project != NULL;
     full.round_count = fit->round;
     full.seconds = fit->seconds + fit->solve.seconds;
     pia_options_write(report, &full, sizeof full);

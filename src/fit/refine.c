@@ -14,7 +14,17 @@ int pia_refine_stopped(pia_fit *fit)
         solve->stop = PIA_STOP_CANCELLED;
     if (solve->stop == PIA_STOP_NONE && solve->rules.time_limit > 0 && solve->seconds >= solve->rules.time_limit)
         solve->stop = PIA_STOP_TIME;
-    return solve->stop != PIA_STOP_NONE;
+    fit->paused = solve->stop == PIA_STOP_NONE && fit->iterate.iteration >= fit->refined_until;
+    return solve->stop != PIA_STOP_NONE || fit->paused;
+}
+
+pia_status pia_refine_count(pia_fit *fit)
+{
+    pia_index every = fit->solve.rules.trace_every;
+    fit->round++;
+    fit->iterate.iteration++;
+    fit->solve.seconds = pia_seconds() - fit->began;
+    return every > 0 && fit->iterate.iteration % every == 0 ? pia_solve_trace(&fit->solve) : PIA_OK;
 }
 
 int pia_refine_reached(const pia_fit *fit)
@@ -22,20 +32,24 @@ int pia_refine_reached(const pia_fit *fit)
     return pia_refine_worst(fit, 0, fit->rows) <= 1;
 }
 
-pia_status pia_refine(pia_fit *fit)
+pia_status pia_refine(pia_fit *fit, pia_index iterations)
 {
+    pia_index done = fit->iterate.iteration;
+    fit->refined_until = iterations > INT64_MAX - done ? INT64_MAX : done + iterations;
+    fit->paused = 0;
     fit->began = pia_seconds() - fit->solve.seconds;
     int adds_lines = fit->placement != NULL && fit->placement->adds_lines;
     pia_status status = adds_lines             ? pia_fit_dominant_columns(fit)
                         : fit->directions == 1 ? pia_refine_curve(fit)
                                                : pia_refine_surface(fit);
     if (status != PIA_OK) return status;
-    if (fit->solve.stop == PIA_STOP_NONE) fit->solve.stop = pia_refine_reached(fit) ? PIA_STOP_TOLERANCE : PIA_STOP_NO_KNOT_LEFT;
+    if (fit->solve.stop == PIA_STOP_NONE && !fit->paused)
+        fit->solve.stop = pia_refine_reached(fit) ? PIA_STOP_TOLERANCE : PIA_STOP_NO_KNOT_LEFT;
     if (fit->solve.stop == PIA_STOP_NO_KNOT_LEFT)
         pia_fit_note_add(fit, "the tolerance cannot be had with these parameters: no knot is left that the data could hold; %g can",
                          fit->iterate.errors.max);
     fit->solve.seconds = pia_seconds() - fit->began;
-    return PIA_OK;
+    return fit->solve.rules.trace_every > 0 ? pia_solve_trace(&fit->solve) : PIA_OK;
 }
 
 pia_status pia_refine_install(pia_fit *fit, const double *knots, pia_index control)

@@ -5,8 +5,9 @@
 #include "fit.h"
 
 /* Grows, spares and corrects until the tolerance holds with as few control points as can be found. Ends with fit->solve.stop set:
- * PIA_STOP_TOLERANCE, or why the tolerance could not be had. */
-pia_status pia_refine(pia_fit *fit);
+ * PIA_STOP_TOLERANCE, or why the tolerance could not be had; without one after so many iterations. An iteration is a round of growing,
+ * of correcting, or of sparing. */
+pia_status pia_refine(pia_fit *fit, pia_index iterations);
 /* The same for a curve, and for a surface from a grid or from scattered points. */
 pia_status pia_refine_curve(pia_fit *fit);
 pia_status pia_refine_surface(pia_fit *fit);
@@ -23,8 +24,11 @@ pia_status pia_refine_spare(pia_fit *fit, pia_index *spared);
 /* What a row may deviate; the largest deviation over that among rows begin .. end - 1, from the residuals. */
 double pia_refine_allowed(const pia_fit *fit, pia_index row);
 double pia_refine_worst(const pia_fit *fit, pia_index begin, pia_index end);
-/* Between rounds: calls the progress callback and looks at the clock. Returns 1, with solve.stop set, when the fit is to stop. */
+/* Between rounds: calls the progress callback and looks at the clock. Returns 1 when the fit is to stop, with solve.stop set, or to
+ * pause because the iterations asked are done. */
 int pia_refine_stopped(pia_fit *fit);
+/* Counts a round that has just been done, and traces it. */
+pia_status pia_refine_count(pia_fit *fit);
 
 /* Replaces the knots of a curve by `knots` (borrowed; open: control + degree + 1, closed: one period of `control` knots) and rebuilds
  * operator and normal form. The control points are left undefined. */

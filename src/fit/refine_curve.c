@@ -41,12 +41,13 @@ static pia_status place_corners(pia_fit *fit)
 
 static pia_status grow_until_kept(pia_fit *fit)
 {
-    pia_status status = place_corners(fit);
-    if (status == PIA_OK) status = pia_refine_solve(fit);
+    pia_status status = fit->round == 0 ? place_corners(fit) : PIA_OK;
+    if (status == PIA_OK && fit->round == 0) status = pia_refine_solve(fit);
+    if (status == PIA_OK && fit->round == 0 && fit->solve.rules.trace_every > 0) status = pia_solve_trace(&fit->solve);
     int more = 1;
     for (int k = 0; k < MAX_GROWTH && status == PIA_OK && more && !pia_refine_reached(fit) && !pia_refine_stopped(fit); k++) {
         status = pia_refine_grow(fit, &more);
-        fit->round++;
+        if (status == PIA_OK && more) status = pia_refine_count(fit);
     }
     if (status == PIA_OK && !pia_refine_reached(fit) && !pia_refine_stopped(fit)) status = pia_refine_interpolate(fit);
     return status;
@@ -58,7 +59,8 @@ pia_status pia_refine_curve(pia_fit *fit)
     pia_index spared = status == PIA_OK && pia_refine_reached(fit);
     for (int k = 0; status == PIA_OK && k < CORRECTIONS && spared > 0 && !pia_refine_stopped(fit); k++) {
         status = pia_refine_spare(fit, &spared);
-        if (fit->options.measure_distance == 0) break;
+        if (status == PIA_OK) status = pia_refine_count(fit);
+        if (fit->options.measure_distance == 0 || fit->iterate.project == NULL) break;
         if (status == PIA_OK) status = move_to_feet(fit);
     }
     return status;

@@ -229,7 +229,6 @@ pia_status pia_refine_spare(pia_fit *fit, pia_index *spared)
         status = run_pass(fit, &s, k % 2, &taken);
         *spared += taken;
         idle = taken > 0 ? 0 : s.segments == 1 && !s.closed ? 2 : idle + 1;
-        fit->round++;
     }
     if (status == PIA_OK && *spared > 0) {
         status = pia_refine_install(fit, s.knots, s.count);

@@ -183,7 +183,7 @@ static pia_status grow(pia_fit *fit, int *possible)
         if (status == PIA_OK) status = go_back(fit, &start);
     }
     if (status == PIA_OK) status = split(fit, 1, &can[1]);
-    if (can[1]) gain[1] = gain_of(fit, before, controls);
+    if (status == PIA_OK && can[1]) gain[1] = gain_of(fit, before, controls);
     if (status == PIA_OK && can[0] && (!can[1] || gain[0] > gain[1])) status = go_back(fit, &first);
     *possible = can[0] || can[1];
     drop(fit, &start);
@@ -280,7 +280,6 @@ static pia_status spare_lines(pia_fit *fit, int d, trial *t, pia_index *spared)
         int taken = 0;
         if (going == 0) break;
         status = try_without(fit, d, t, &taken);
-        fit->round++;
         if (taken) {
             *spared += going;
             misses = 0;
@@ -311,17 +310,19 @@ static pia_status spare_direction(pia_fit *fit, int d, pia_index *spared)
 
 pia_status pia_refine_surface(pia_fit *fit)
 {
-    pia_status status = pia_refine_solve(fit);
+    pia_status status = fit->round == 0 ? pia_refine_solve(fit) : PIA_OK;
+    if (status == PIA_OK && fit->round == 0 && fit->solve.rules.trace_every > 0) status = pia_solve_trace(&fit->solve);
     int more = 1;
     for (int k = 0; k < MAX_GROWTH && status == PIA_OK && more && !pia_refine_reached(fit) && !pia_refine_stopped(fit); k++) {
         status = grow(fit, &more);
-        fit->round++;
+        if (status == PIA_OK && more) status = pia_refine_count(fit);
     }
     if (status == PIA_OK && !pia_refine_reached(fit) && !pia_refine_stopped(fit)) status = pia_refine_interpolate(fit);
     pia_index spared = status == PIA_OK && pia_refine_reached(fit);
-    for (int cycle = 0; cycle < MAX_CYCLES && spared > 0 && status == PIA_OK; cycle++) {
+    for (int cycle = 0; cycle < MAX_CYCLES && spared > 0 && status == PIA_OK && !pia_refine_stopped(fit); cycle++) {
         spared = 0;
         for (int d = 0; d < 2 && status == PIA_OK; d++) status = spare_direction(fit, d, &spared);
+        if (status == PIA_OK) status = pia_refine_count(fit);
     }
     return status;
 }

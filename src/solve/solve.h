@@ -52,6 +52,8 @@ typedef struct pia_solve {
 pia_status pia_solve_begin(pia_solve *solve, const pia_values *method_values, const pia_values *limiter_values);
 /* At most `iterations` updates; fewer when a rule fires. Ends with solve->stop, PIA_STOP_NONE when the count ran out first. */
 pia_status pia_solve_step(pia_solve *solve, pia_index iterations);
+/* A row of the trace for the current iterate, whose errors are known; nothing when the last row is its row already. */
+pia_status pia_solve_trace(pia_solve *solve);
 /* Before going on after an edit: forgets the stop reason and what was known of the errors; history of accelerated methods starts anew.
  */
 pia_status pia_solve_restart(pia_solve *solve, const pia_values *method_values, const pia_values *limiter_values);

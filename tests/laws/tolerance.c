@@ -324,6 +324,56 @@ static void what_cannot_be_had_is_said(void **state)
     pia_context_destroy(context);
 }
 
+/* The control points of a fit in single steps, or in one go; the caller frees. */
+static double *stepped(pia_context *context, const problem *p, pia_index at_once, pia_index *count)
+{
+    pia_fit *fit;
+    pia_model *model;
+    pia_report report = {.struct_size = sizeof report};
+    pia_model_info info = {.struct_size = sizeof info};
+    assert_ok(context, pia_fit_open(context, &p->data, &p->options, &fit));
+    for (int k = 0; k < 1000 && report.stop == PIA_STOP_NONE; k++) assert_ok(context, pia_fit_step(fit, at_once, &report));
+    assert_string_equal(pia_stop_name(report.stop), "tolerance");
+    assert_true(report.iterations > 2);
+    pia_trace_row before = {0}, row;
+    pia_index rows = 0, most = 0;
+    for (; pia_fit_trace(fit, rows, &row); rows++) {
+        assert_true(rows == 0 || row.iteration > before.iteration);
+        before = row;
+        if (row.control_count > most) most = row.control_count;
+    }
+    assert_int_equal(rows, report.iterations + 1);
+    assert_int_equal(row.control_count, report.control_count);
+    assert_true(most > report.control_count);
+    assert_ok(context, pia_fit_model(fit, &model));
+    pia_model_get_info(model, &info);
+    *count = info.control[0] * info.control[1] * info.dim;
+    double *points = malloc((size_t)*count * sizeof *points);
+    pia_model_control(model, points, NULL);
+    pia_model_destroy(model);
+    pia_fit_close(fit);
+    return points;
+}
+
+static void single_steps_come_to_the_same_fit(void **state)
+{
+    (void)state;
+    pia_context *context;
+    assert_ok(NULL, pia_context_create(NULL, &context));
+    for (int k = 0; k < 2; k++) {
+        pia_index count[2];
+        problem p = k == 0 ? wavy(3, 1, 2, 500, 0.05) : sheet(PIA_GRID, 3, 1, 0.1);
+        p.options.trace_every = 1;
+        double *whole = stepped(context, &p, INT64_MAX, &count[0]), *single = stepped(context, &p, 1, &count[1]);
+        if (k == 0) assert_int_equal(count[0], count[1]);
+        for (pia_index i = 0; k == 0 && i < count[0]; i++) assert_near(single[i], whole[i], 0);
+        free(whole);
+        free(single);
+        free(p.points);
+    }
+    pia_context_destroy(context);
+}
+
 static int stop_at_once(void *user, const pia_report *so_far)
 {
     (void)so_far;
@@ -363,6 +413,7 @@ int main(void)
         cmocka_unit_test(corners_are_sharp_whether_found_or_given),
         cmocka_unit_test(a_corner_that_does_not_exist_is_refused),
         cmocka_unit_test(what_cannot_be_had_is_said),
+        cmocka_unit_test(single_steps_come_to_the_same_fit),
         cmocka_unit_test(a_cancelled_fit_keeps_a_model),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

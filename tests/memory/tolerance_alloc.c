@@ -1,0 +1,94 @@
+/* Fits to a tolerance when memory runs out. */
+#include "failing.h"
+
+enum { ROWS = 9, COLUMNS = 40 };
+
+typedef struct problem {
+    pia_data data;
+    pia_fit_options options;
+    double points[ROWS * COLUMNS * 3];
+} problem;
+
+static problem curve_problem(int closed)
+{
+    problem p;
+    memset(&p, 0, sizeof p);
+    pia_data_init(&p.data);
+    pia_fit_options_init(&p.options);
+    p.data.count[0] = COLUMNS;
+    p.data.dim = 2;
+    for (int i = 0; i < COLUMNS; i++) {
+        p.points[2 * i] = cos(0.157 * i);
+        p.points[2 * i + 1] = sin(0.157 * i) + 0.1 * sin(0.471 * i);
+    }
+    p.options.closed[0] = closed;
+    p.options.tolerance = 0.02;
+    p.options.measure_distance = 1;
+    p.options.trace_every = 1;
+    return p;
+}
+
+static problem grid_problem(void)
+{
+    problem p = curve_problem(0);
+    p.data.kind = PIA_GRID;
+    p.data.count[0] = ROWS;
+    p.data.count[1] = COLUMNS;
+    p.data.dim = 3;
+    for (int i = 0; i < ROWS; i++)
+        for (int j = 0; j < COLUMNS; j++) {
+            double *q = p.points + 3 * (i * COLUMNS + j);
+            q[0] = i;
+            q[1] = j;
+            q[2] = sin(0.5 * i) * cos(0.3 * j);
+        }
+    return p;
+}
+
+static pia_status fit(pia_context *context, void *user)
+{
+    problem *p = user;
+    pia_model *model = NULL;
+    p->data.points = p->points;
+    pia_status status = pia_fit_data(context, &p->data, &p->options, &model, NULL);
+    pia_model_destroy(model);
+    return status;
+}
+
+static void a_curve_survives_every_failure(void **state)
+{
+    (void)state;
+    for (int closed = 0; closed < 2; closed++) {
+        problem p = curve_problem(closed);
+        assert_survives_failures(fit, &p);
+    }
+}
+
+static void a_curve_with_corners_survives_every_failure(void **state)
+{
+    (void)state;
+    static const pia_index corners[] = {7, 21};
+    problem p = curve_problem(1);
+    p.options.corners = corners;
+    p.options.corner_count = 2;
+    assert_survives_failures(fit, &p);
+    p.options.corner_count = PIA_AUTO;
+    assert_survives_failures(fit, &p);
+}
+
+static void a_surface_survives_every_failure(void **state)
+{
+    (void)state;
+    problem p = grid_problem();
+    assert_survives_failures(fit, &p);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(a_curve_survives_every_failure),
+        cmocka_unit_test(a_curve_with_corners_survives_every_failure),
+        cmocka_unit_test(a_surface_survives_every_failure),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
