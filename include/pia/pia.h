@@ -244,6 +244,12 @@ void pia_fit_options_init(pia_fit_options *options);
 pia_status pia_fit_data(pia_context *context, const pia_data *data, const pia_fit_options *options, pia_model **model,
                         pia_report *report);
 
+/* A tolerance that the noise in the points of a curve or grid suggests: what the largest of so much normal noise comes to. noise (NULL
+ * allowed): its standard deviation a component, from what neighbours in a row say of each other; of noiseless points, what their
+ * spacing leaves out. The rows of a function graph are sorted. Errors: PIA_E_ARGUMENT, SHAPE, DATA (fewer than five points),
+ * UNAVAILABLE (scattered points), MEMORY. */
+pia_status pia_suggest_tolerance(pia_context *context, const pia_data *data, double *tolerance, double *noise);
+
 /* A fit that is stepped, read and edited. Copies the data; the options' arrays need not outlive the call. */
 pia_status pia_fit_open(pia_context *context, const pia_data *data, const pia_fit_options *options, pia_fit **out);
 /* `iterations` updates, fewer when a stop rule fires. report may be NULL. */

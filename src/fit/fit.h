@@ -6,8 +6,9 @@
  *   fit_foot.c        parameters moved to foot points                fit_call.c     the one call
  *   fit_constrain.c   points and derivatives met exactly             fit_outcome.c  what is worth saying of the result
  *   fit_robust.c      weights of a robust loss                       fit_epia.c     groups and knot insertion of [2011]
- *   sequence*.c       control points that stand for data lines       fit_dominant.c Park's dominant columns
- *   refine*.c         knots for a tolerance                         fit_corners.c  corners, found or given */
+ *   fit_noise.c       a tolerance that the noise suggests            fit_dominant.c Park's dominant columns
+ *   sequence*.c       control points that stand for data lines       fit_corners.c  corners, found or given
+ *   refine*.c         knots for a tolerance */
 #ifndef PIA_FIT_FIT_H
 #define PIA_FIT_FIT_H
 

@@ -374,6 +374,54 @@ static void single_steps_come_to_the_same_fit(void **state)
     pia_context_destroy(context);
 }
 
+/* Nearly normal: the sum of twelve uniform numbers. */
+static double normal_number(uint64_t *seed)
+{
+    double sum = -6;
+    for (int i = 0; i < 12; i++) sum += random_number(seed);
+    return sum;
+}
+
+static void the_noise_of_points_suggests_a_tolerance(void **state)
+{
+    (void)state;
+    enum { U = 60, V = 90 };
+    static double points[U * V * 3];
+    pia_context *context;
+    assert_ok(NULL, pia_context_create(NULL, &context));
+    for (int kind = 0; kind < 3; kind++) {
+        double tolerance, noise, largest = 0;
+        uint64_t seed = 5;
+        pia_data data;
+        pia_data_init(&data);
+        data.kind = kind == 2 ? PIA_GRID : PIA_CURVE;
+        data.function_graph = kind == 1;
+        data.dim = kind == 2 ? 3 : 2;
+        data.count[0] = kind == 2 ? U : U * V;
+        data.count[1] = kind == 2 ? V : 1;
+        data.points = points;
+        for (int i = 0; i < U * V; i++) {
+            double *q = points + i * data.dim, square = 0, away[3];
+            for (int d = 0; d < data.dim; d++) away[d] = d == 0 && kind == 1 ? 0 : 0.01 * normal_number(&seed);
+            for (int d = 0; d < data.dim; d++) square += away[d] * away[d];
+            largest = fmax(largest, sqrt(square));
+            q[0] = (kind == 2 ? i / V : 10 * sin(0.005 * i) * (kind == 0) + 0.1 * i * (kind == 1)) + away[0];
+            q[1] = (kind == 2 ? i % V : 10 * cos(0.005 * i)) + away[1];
+            if (kind == 2) q[2] = 3 * sin(0.1 * (i / V)) * cos(0.08 * (i % V)) + away[2];
+        }
+        assert_ok(context, pia_suggest_tolerance(context, &data, &tolerance, &noise));
+        assert_near(noise, 0.01, 0.001);
+        assert_true(tolerance > 0.9 * largest && tolerance < 1.5 * largest);
+        data.kind = PIA_SCATTERED;
+        assert_status(context, pia_suggest_tolerance(context, &data, &tolerance, NULL), PIA_E_UNAVAILABLE);
+        data.kind = PIA_CURVE;
+        data.count[0] = 4;
+        data.count[1] = 1;
+        assert_status(context, pia_suggest_tolerance(context, &data, &tolerance, NULL), PIA_E_DATA);
+    }
+    pia_context_destroy(context);
+}
+
 static int stop_at_once(void *user, const pia_report *so_far)
 {
     (void)so_far;
@@ -413,6 +461,7 @@ int main(void)
         cmocka_unit_test(corners_are_sharp_whether_found_or_given),
         cmocka_unit_test(a_corner_that_does_not_exist_is_refused),
         cmocka_unit_test(what_cannot_be_had_is_said),
+        cmocka_unit_test(the_noise_of_points_suggests_a_tolerance),
         cmocka_unit_test(single_steps_come_to_the_same_fit),
         cmocka_unit_test(a_cancelled_fit_keeps_a_model),
     };
