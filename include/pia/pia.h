@@ -271,6 +271,9 @@ pia_status pia_fit_parameters(pia_fit *fit, const double **parameters, pia_index
 /* Factors in [0, 1] that the robust loss gave the rows used, in their order: 1 is a row fully trusted, below 0.5 an outlier. `row`
  * (NULL allowed) as above; arrays borrowed until the next step or edit. NULL and 0 without a robust loss. */
 pia_status pia_fit_weights(pia_fit *fit, const double **weights, const pia_index **row, pia_index *count);
+/* Control points that the data do not hold: no parameter of their own (Schoenberg-Whitney), or all basis values below 1e-3. Row-major over
+ * the control points that the report counts; borrowed until the next edit. They stay near the start; fairing bridges them instead. */
+pia_status pia_fit_unsupported(pia_fit *fit, const pia_index **control, pia_index *count);
 /* Row `index` of the trace; returns 0 past the end. */
 int pia_fit_trace(const pia_fit *fit, pia_index index, pia_trace_row *out);
 /* Note (repair, warning, choice made by the library) number `index`; NULL past the end. */

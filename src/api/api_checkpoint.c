@@ -202,6 +202,23 @@ static void rules(walk *w, pia_fit *fit)
     }
 }
 
+/* What the data do not hold and what holds it; the operator is there. */
+static void support(walk *w, pia_fit *fit)
+{
+    array(w, "unsupported_count", PIA_SECTION_INDEX, &fit->unsupported_count, 1);
+    array(w, "pull", PIA_SECTION_DOUBLE, &fit->pull, 1);
+    if (w->status != PIA_OK) return;
+    if (fit->unsupported_count < 0 || fit->unsupported_count > fit->op->cols || !(fit->pull >= 0)) {
+        fit->unsupported_count = 0;
+        w->status = pia_fail(w->context, PIA_E_FORMAT, "checkpoint: its unsupported control points are not possible");
+        return;
+    }
+    optional(w, "unsupported", PIA_SECTION_INDEX, &fit->unsupported, fit->unsupported_count);
+    optional(w, "pull_start", PIA_SECTION_DOUBLE, &fit->pull_start, fit->op->cols * fit->dim);
+    if (fit->unsupported == NULL) fit->unsupported_count = 0;
+    if (w->writer == NULL && w->status == PIA_OK && fit->pull_start != NULL) w->status = pia_fit_open_normal(fit);
+}
+
 enum { CONSTRAINT_COUNTS = 6 };
 
 /* Constraints as three tables: what, where, and the values given (zeros where none was). */
@@ -384,6 +401,7 @@ pia_status pia_fit_save(pia_fit *fit, const char *path)
     robust(&w, fit);
     rules(&w, fit);
     sequence(&w, fit);
+    support(&w, fit);
     constraints(&w, fit);
     progress(&w, fit);
     trace(&w, fit);
@@ -463,6 +481,7 @@ static pia_status rebuild(walk *w, pia_fit *fit)
         w->status = pia_fail(w->context, PIA_E_FORMAT, "checkpoint: points, parameters or knots are missing");
     sequence(w, fit);
     if (w->status == PIA_OK) w->status = pia_fit_assemble(fit);
+    if (w->status == PIA_OK) support(w, fit);
     constraints(w, fit);
     if (w->status == PIA_OK) array(w, "points_now", PIA_SECTION_DOUBLE, fit->iterate.points, fit->op->cols * fit->dim);
     if (w->status == PIA_OK) w->status = thaw(w, fit);

@@ -8,6 +8,7 @@
  *   fit_robust.c      weights of a robust loss                       fit_epia.c     groups and knot insertion of [2011]
  *   fit_noise.c       a tolerance that the noise suggests            fit_dominant.c Park's dominant columns
  *   sequence*.c       control points that stand for data lines       fit_corners.c  corners, found or given
+ *   fit_support.c     control points that the data do not hold
  *   refine*.c         knots for a tolerance */
 #ifndef PIA_FIT_FIT_H
 #define PIA_FIT_FIT_H
@@ -84,6 +85,9 @@ struct pia_fit {
     pia_index constraint_count, constraint_room;
     pia_solve solve;
     pia_values method_values, limiter_values;
+    pia_index *unsupported; /* [unsupported_count] unknowns that the data do not hold; NULL: none */
+    pia_index unsupported_count;
+    double pull, *pull_start; /* what holds them, see pia_addition */
     pia_robust robust;
     pia_notes notes, outcome;        /* what was done; what is to be said of the current result, after the other notes */
     int refining;                    /* knots are still to be found for a tolerance */
@@ -159,8 +163,16 @@ void pia_fit_describe_outliers(pia_fit *fit);
 /* Points or weights of these rows have changed: normal form and constraints follow. */
 pia_status pia_fit_refresh(pia_fit *fit, pia_index first_row, pia_index last_row);
 
+/* Once the start is known: which control points the data do not hold, and, without fairing, what holds them; and its end. */
+pia_status pia_fit_support(pia_fit *fit);
+void pia_fit_support_close(pia_fit *fit);
+void pia_fit_describe_support(pia_fit *fit);
+/* The normal form of the data anew, with fairing and pull; not wrapped with soft constraints. */
+pia_status pia_fit_open_normal(pia_fit *fit);
+
 enum { PIA_LISTED = 20 }; /* indices that a note lists at most */
-/* The outcome anew: inflections where a limiter ran, outliers. Memory that is too short for a note is not an error. */
+/* The outcome anew: inflections where a limiter ran, outliers, control points without hold. Memory that is too short for a note is not
+ * an error. */
 void pia_fit_conclude(pia_fit *fit);
 /* A note of the outcome: "COUNT TEXT: ", then the first PIA_LISTED of list [count]. */
 void pia_fit_outcome_add(pia_fit *fit, const char *text, const pia_index *list, pia_index count);

@@ -42,6 +42,7 @@ static pia_status reassemble(pia_fit *fit)
     pia_status status = pia_fit_assemble(fit);
     if (status == PIA_OK) memcpy(fit->iterate.points, points, (size_t)size * sizeof *points);
     pia_give(fit->context, points);
+    if (status == PIA_OK) status = pia_fit_support(fit);
     if (status == PIA_OK) status = pia_fit_bind(fit);
     return status == PIA_OK ? pia_fit_restart(fit) : status;
 }
@@ -226,6 +227,7 @@ pia_status pia_fit_insert_knot(pia_fit *fit, int direction, double knot)
     if (status == PIA_OK) status = pia_fit_adopt_knots(fit, finer);
     if (status == PIA_OK) status = pia_fit_assemble(fit);
     if (status == PIA_OK) status = pia_fit_adopt_control(fit, finer);
+    if (status == PIA_OK) status = pia_fit_support(fit);
     if (status == PIA_OK) status = pia_fit_bind(fit);
     pia_model_destroy(now);
     pia_model_destroy(finer);

@@ -94,6 +94,7 @@ static void drop_assembly(pia_fit *fit)
 {
     pia_iterate *iterate = &fit->iterate;
     pia_fit_unbind(fit);
+    pia_fit_support_close(fit);
     pia_normal_close(fit->normal);
     pia_op_close(fit->op);
     fit->normal = NULL;
@@ -119,9 +120,8 @@ static pia_status take_iterate(pia_fit *fit)
     if (iterate->points == NULL || iterate->adjust == NULL) return PIA_E_MEMORY;
     unsigned needs = fit->solve.method->needs;
     if (!fit->square && !pia_fit_is_grouped(fit)) {
-        pia_status status = pia_normal_open_fair(fit->op, &iterate->targets, fit->options.fairing, &fit->normal);
+        pia_status status = pia_fit_open_normal(fit);
         if (status != PIA_OK && (status != PIA_E_UNAVAILABLE || fit->options.fairing > 0)) return status;
-        iterate->normal = fit->normal;
     }
     int fused = fit->solve.method->step != NULL && fit->solve.limiter == NULL;
     if (((needs & PIA_NEEDS_ROWS) != 0 && !fused) || (!fit->square && iterate->normal == NULL) || fit->refining) {
@@ -194,6 +194,7 @@ static pia_status open_stages(pia_fit *fit, const pia_data *data)
     if (status == PIA_OK) status = pia_fit_initial(fit);
     if (status == PIA_OK && fit->iterate.groups != NULL) status = pia_epia_validate(fit);
     if (status == PIA_OK) status = freeze_asked(fit);
+    if (status == PIA_OK) status = pia_fit_support(fit);
     if (status == PIA_OK) status = pia_fit_take_constraints(fit);
     if (status == PIA_OK) status = pia_fit_bind(fit);
     if (status != PIA_OK) return status;

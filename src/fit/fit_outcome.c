@@ -48,4 +48,5 @@ void pia_fit_conclude(pia_fit *fit)
     describe_shape(fit);
     pia_fit_describe_outliers(fit);
     if (fit->iterate.groups != NULL) pia_epia_outcome(fit);
+    pia_fit_describe_support(fit);
 }

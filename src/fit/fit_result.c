@@ -71,7 +71,8 @@ pia_status pia_fit_report(pia_fit *fit, pia_report *report)
     full.relative_gradient = iterate->relative_gradient;
     full.start_error = isnan(fit->solve.start_error) ? full.max_error : fit->solve.start_error;
     full.rate = fit->solve.rate;
-    full.unsupported_count = iterate->normal != NULL ? iterate->normal->weak : 0;
+    full.unsupported_count = fit->unsupported_count;
+    if (iterate->normal != NULL && iterate->normal->weak > full.unsupported_count) full.unsupported_count = iterate->normal->weak;
     full.outlier_count = fit->robust.outliers;
     full.measure_distance = fit->refining && fit->options.measure_distance && iterate->project != NULL;
     full.round_count = fit->round;

@@ -13,12 +13,13 @@ static pia_status take_arrays(pia_normal *normal, int dim)
     return pia_take_status(context, cols, (size_t)dim * sizeof *normal->right);
 }
 
-/* A grid that turns out to be no Kronecker product, and with a thin plate it is none, is a surface like any other. */
+/* A grid that turns out to be no Kronecker product, and with more than the data in it it is none, is a surface like any other. */
 static pia_status open_class(pia_normal *normal, const pia_targets *targets)
 {
     const pia_op *op = normal->op;
     if (op->directions == 1) return pia_normal_curve_open(normal, targets);
-    if (op->line[0] == NULL || op->frozen != NULL || normal->energy != NULL) return pia_normal_stencil_open(normal, targets);
+    if (op->line[0] == NULL || op->frozen != NULL || normal->energy != NULL || normal->pull > 0)
+        return pia_normal_stencil_open(normal, targets);
     pia_status status = pia_normal_grid_open(normal, targets);
     if (status != PIA_E_UNAVAILABLE) return status;
     if (normal->class != NULL) normal->class->close(normal);
@@ -27,16 +28,19 @@ static pia_status open_class(pia_normal *normal, const pia_targets *targets)
 
 pia_status pia_normal_open(pia_op *op, const pia_targets *targets, pia_normal **out)
 {
-    return pia_normal_open_fair(op, targets, 0, out);
+    const pia_addition nothing = {0};
+    return pia_normal_open_with(op, targets, &nothing, out);
 }
 
-pia_status pia_normal_open_fair(pia_op *op, const pia_targets *targets, double fairing, pia_normal **out)
+pia_status pia_normal_open_with(pia_op *op, const pia_targets *targets, const pia_addition *addition, pia_normal **out)
 {
     pia_normal *normal = pia_take_zero(op->context, 1, sizeof *normal);
     if (normal == NULL) return pia_take_status(op->context, 1, sizeof *normal);
     normal->op = op;
+    normal->pull = addition->pull;
+    normal->start = addition->start;
     pia_status status = take_arrays(normal, targets->dim);
-    if (status == PIA_OK && fairing > 0) status = pia_energy_open(op, fairing, &normal->energy);
+    if (status == PIA_OK && addition->fairing > 0) status = pia_energy_open(op, addition->fairing, &normal->energy);
     if (status == PIA_OK) status = open_class(normal, targets);
     if (status != PIA_OK) {
         pia_normal_close(normal);
@@ -56,6 +60,16 @@ void pia_normal_close(pia_normal *normal)
     pia_give(context, normal->diagonal);
     pia_give(context, normal->column_sum);
     pia_give(context, normal);
+}
+
+void pia_normal_add_pull(pia_normal *normal, int dim)
+{
+    for (pia_index c = 0; c < normal->op->cols; c++) {
+        normal->diagonal[c] += normal->pull;
+        normal->column_sum[c] += normal->pull;
+        for (int d = 0; d < dim; d++) normal->right[c * dim + d] += normal->pull * normal->start[c * dim + d];
+    }
+    pia_op_mask(normal->op, normal->right, dim);
 }
 
 void pia_normal_refresh(pia_normal *normal, const pia_targets *targets, pia_index first_row, pia_index last_row)

@@ -30,20 +30,29 @@ struct pia_normal {
     double *column_sum;        /* sum over rows of w N_c [cols] */
     pia_index weak;            /* unknowns that the data do not hold, known after factor: solutions are 0 or small there */
     struct pia_energy *energy; /* added to H, see energy.h; NULL: none */
+    double pull;               /* pull (P - start)^2 is added to the squares; 0: none */
+    const double *start;       /* [cols x dim], borrowed */
     void *state;
 };
 
 /* Banded for curves; a Kronecker product for full grids without weights and frozen control points; a stencil for other surfaces.
  * Errors: PIA_E_MEMORY, PIA_E_SIZE; PIA_E_UNAVAILABLE when this operator has no normal form. */
 pia_status pia_normal_open(pia_op *op, const pia_targets *targets, pia_normal **out);
-/* The same with the fairing energy added to H, `fairing` > 0 times as strong as the data; with 0 it is pia_normal_open. */
-pia_status pia_normal_open_fair(pia_op *op, const pia_targets *targets, double fairing, pia_normal **out);
+/* The same with more than the data in it. */
+typedef struct pia_addition {
+    double fairing;      /* strength of the fairing energy beside the data (energy.h); 0: none */
+    double pull;         /* weight of |P - start|^2; 0: none */
+    const double *start; /* [cols x dim] relative to the targets' origin, borrowed; NULL without pull */
+} pia_addition;
+pia_status pia_normal_open_with(pia_op *op, const pia_targets *targets, const pia_addition *addition, pia_normal **out);
 void pia_normal_close(pia_normal *normal);
 
 /* Points or weights of rows first_row .. last_row have changed, their parameters have not: sums again, from the data, what these rows
  * touch. Gives the same bits as a normal form opened anew. */
 void pia_normal_refresh(pia_normal *normal, const pia_targets *targets, pia_index first_row, pia_index last_row);
 
+/* For the classes, when all else is in the sums: the pull in `right`, `diagonal` and `column_sum`; H is theirs. */
+void pia_normal_add_pull(pia_normal *normal, int dim);
 /* For pia_normal_open: the normal forms of its operators, whose arrays are allocated and whose state is to be made. */
 pia_status pia_normal_curve_open(pia_normal *normal, const pia_targets *targets);
 pia_status pia_normal_grid_open(pia_normal *normal, const pia_targets *targets);

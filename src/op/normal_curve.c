@@ -42,11 +42,21 @@ static void derive(pia_normal *normal)
     for (pia_index i = 0; i < c->gram.count; i++) normal->diagonal[i] = 1;
     pia_gram_multiply(&c->gram, normal->diagonal, 1, 1, normal->column_sum);
     pia_gram_diagonal(&c->gram, normal->diagonal);
-    if (normal->energy == NULL) return;
-    double factor = pia_energy_factor(normal->energy, normal->diagonal);
-    pia_energy_add_gram(normal->energy, factor, &c->gram);
-    pia_energy_add_sums(normal->energy, factor, normal->column_sum);
-    pia_gram_diagonal(&c->gram, normal->diagonal);
+}
+
+/* How strong the energy is depends on the sums of the data, which are complete now. */
+static void add_more(pia_normal *normal, int dim)
+{
+    curve *c = normal->state;
+    if (normal->energy != NULL) {
+        double factor = pia_energy_factor(normal->energy, normal->diagonal);
+        pia_energy_add_gram(normal->energy, factor, &c->gram);
+        pia_energy_add_sums(normal->energy, factor, normal->column_sum);
+        pia_gram_diagonal(&c->gram, normal->diagonal);
+    }
+    if (normal->pull == 0) return;
+    for (pia_index i = 0; i < c->gram.count; i++) c->gram.band[i * (c->gram.width + 1)] += normal->pull;
+    pia_normal_add_pull(normal, dim);
 }
 
 static void multiply(const pia_normal *normal, const double *x, int dim, double *y)
@@ -85,6 +95,7 @@ static void refresh(pia_normal *normal, const pia_targets *targets, pia_index fi
     pia_span_sums(&data, first, last, c->share + first * c->room);
     assemble(normal, targets->dim);
     derive(normal);
+    add_more(normal, targets->dim);
 }
 
 static void close(pia_normal *normal)
@@ -118,5 +129,6 @@ pia_status pia_normal_curve_open(pia_normal *normal, const pia_targets *targets)
     pia_span_sums(&data, 0, spans(line) - 1, c->share);
     assemble(normal, targets->dim);
     derive(normal);
+    add_more(normal, targets->dim);
     return PIA_OK;
 }

@@ -122,6 +122,23 @@ static void multiply_all(const pia_normal *normal, const double *x, int dim, dou
     pia_op_reduce(op, product, dim, y);
 }
 
+/* How strong the energy is depends on the sums of the data, which are complete now. Unknowns are pulled at their first copy. */
+static void add_more(pia_normal *normal, int dim)
+{
+    surface *s = normal->state;
+    const pia_op *op = normal->op;
+    if (normal->energy != NULL) {
+        double factor = pia_energy_factor(normal->energy, normal->diagonal);
+        pia_energy_add_stencil(normal->energy, factor, &s->stencil);
+        pia_energy_add_sums(normal->energy, factor, normal->column_sum);
+        pia_stencil_diagonal(&s->stencil, op, normal->diagonal);
+    }
+    if (normal->pull == 0) return;
+    for (pia_index i = 0; i < op->count[0]; i++)
+        for (pia_index j = 0; j < op->count[1]; j++) pia_stencil_line(&s->stencil, i, 0, 0)[j] += normal->pull;
+    pia_normal_add_pull(normal, dim);
+}
+
 static void sum_all(pia_normal *normal, const pia_targets *targets)
 {
     surface *s = normal->state;
@@ -135,12 +152,7 @@ static void sum_all(pia_normal *normal, const pia_targets *targets)
     pia_stencil_diagonal(&s->stencil, op, normal->diagonal);
     for (pia_index c = 0; c < op->cols; c++) s->scale[c] = 1; /* H 1: basis functions sum to 1 */
     multiply_all(normal, s->scale, 1, normal->column_sum);
-    if (normal->energy != NULL) {
-        double factor = pia_energy_factor(normal->energy, normal->diagonal);
-        pia_energy_add_stencil(normal->energy, factor, &s->stencil);
-        pia_energy_add_sums(normal->energy, factor, normal->column_sum);
-        pia_stencil_diagonal(&s->stencil, op, normal->diagonal);
-    }
+    add_more(normal, targets->dim);
     s->approximated = 0;
 }
 

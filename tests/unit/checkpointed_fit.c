@@ -29,21 +29,12 @@ static void compare_models(const pia_model *a, const pia_model *b)
 }
 
 /* Steps 7, saves, steps 9 more; the resumed fit steps the same 9. */
-static void check_fit(const pia_fit_options *options)
+static void check_data(pia_context *context, const pia_data *data, const pia_fit_options *options)
 {
-    pia_context *context;
     char path[] = "/tmp/pia_checkpoint_XXXXXX";
-    double points[2 * ROWS];
-    fill(points, options->closed[0]);
-    assert_int_equal(pia_context_create(NULL, &context), PIA_OK);
     close(mkstemp(path));
-    pia_data data;
-    pia_data_init(&data);
-    data.points = points;
-    data.count[0] = ROWS;
-    data.dim = 2;
     pia_fit *fit, *resumed;
-    assert_ok(context, pia_fit_open(context, &data, options, &fit));
+    assert_ok(context, pia_fit_open(context, data, options, &fit));
     assert_ok(context, pia_fit_step(fit, 7, NULL));
     assert_ok(context, pia_fit_save(fit, path));
     assert_ok(context, pia_fit_resume(context, path, &resumed));
@@ -64,8 +55,22 @@ static void check_fit(const pia_fit_options *options)
     pia_model_destroy(n);
     pia_fit_close(fit);
     pia_fit_close(resumed);
-    pia_context_destroy(context);
     unlink(path);
+}
+
+static void check_fit(const pia_fit_options *options)
+{
+    pia_context *context;
+    double points[2 * ROWS];
+    fill(points, options->closed[0]);
+    assert_int_equal(pia_context_create(NULL, &context), PIA_OK);
+    pia_data data;
+    pia_data_init(&data);
+    data.points = points;
+    data.count[0] = ROWS;
+    data.dim = 2;
+    check_data(context, &data, options);
+    pia_context_destroy(context);
 }
 
 static void check_method(const char *method, int closed, pia_index control, int constrained)
@@ -126,9 +131,48 @@ static void a_damaged_checkpoint_is_refused(void **state)
     pia_context_destroy(context);
 }
 
+/* What a fit has besides its method: a shape to keep, weights of a loss, fairing, control points that the data do not hold. */
+static void limiters_losses_fairing_and_gaps_go_on_as_well(void **state)
+{
+    (void)state;
+    static const char *const limiter[] = {"convex", "convex-local", "inflection", "inflection-paper"}, *const loss[] = {"huber",
+                                                                                                                        "tukey"};
+    pia_context *context;
+    double points[2 * ROWS], parameters[ROWS], knots[24];
+    assert_int_equal(pia_context_create(NULL, &context), PIA_OK);
+    for (int k = 0; k < 8; k++) {
+        pia_data data;
+        pia_fit_options options;
+        pia_data_init(&data);
+        pia_fit_options_init(&options);
+        fill(points, 0);
+        for (int i = 0; i < ROWS; i++) parameters[i] = (i < ROWS / 2 ? 0.3 : 0.7 - 0.3) * i / (ROWS / 2) + (i < ROWS / 2 ? 0 : 0.2);
+        for (int i = 0; i < 24; i++) knots[i] = i < 4 ? 0 : i > 19 ? 1 : (i - 3) / 17.0;
+        data.points = points;
+        data.count[0] = ROWS;
+        data.dim = 2;
+        options.method = k < 6 ? "lspia" : "cg";
+        options.control[0] = 20;
+        options.limiter = k < 4 ? limiter[k] : NULL;
+        options.robust = k == 4 || k == 5 ? loss[k - 4] : NULL;
+        options.fairing = k == 6 ? 0.1 : 0;
+        options.stop_gradient = k == 4 || k == 5 ? 1e-2 : 0;
+        options.stop_change = 0;
+        options.trace_every = 1;
+        if (k == 7) {
+            data.parameters = parameters;
+            options.knots[0] = knots;
+            options.knot_count[0] = 24;
+        }
+        check_data(context, &data, &options);
+    }
+    pia_context_destroy(context);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(limiters_losses_fairing_and_gaps_go_on_as_well),
         cmocka_unit_test(every_method_goes_on_with_the_same_bits),
         cmocka_unit_test(epia_goes_on_inserting_the_same_knots),
         cmocka_unit_test(a_damaged_checkpoint_is_refused),

@@ -92,7 +92,7 @@ static void the_energy_matrix_is_the_integral_of_products_of_derivatives(void **
         double *h = malloc((size_t)(p->cols * p->cols) * sizeof *h), *b = malloc((size_t)(2 * p->cols) * sizeof *b);
         double *unit = calloc((size_t)p->cols, sizeof *unit), *column = malloc((size_t)p->cols * sizeof *column);
         dense_sum(p, 0.3, h, b);
-        assert_ok(NULL, pia_normal_open_fair(p->op, &p->targets, 0.3, &normal));
+        assert_ok(NULL, pia_normal_open_with(p->op, &p->targets, &(pia_addition){.fairing = 0.3}, &normal));
         for (pia_index c = 0; c < p->cols; c++) {
             double sum = 0;
             unit[c] = 1;
@@ -125,7 +125,7 @@ static void faired_solutions_are_those_of_dense_elimination_and_refresh_gives_th
         double *x = malloc((size_t)(2 * p->cols) * sizeof *x);
         dense_sum(p, 1e-3, h, b);
         problem_solve(h, p->cols, b, 2);
-        assert_ok(NULL, pia_normal_open_fair(p->op, &p->targets, 1e-3, &normal));
+        assert_ok(NULL, pia_normal_open_with(p->op, &p->targets, &(pia_addition){.fairing = 1e-3}, &normal));
         for (int round = 0; round < 2; round++) {
             assert_ok(NULL, normal->class->factor(normal));
             memcpy(x, normal->right, (size_t)(2 * p->cols) * sizeof *x);
