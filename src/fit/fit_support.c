@@ -81,7 +81,7 @@ static pia_status find_unsupported(pia_fit *fit)
     return count == 0 || fit->unsupported != NULL ? PIA_OK : pia_take_status(fit->context, count, sizeof *fit->unsupported);
 }
 
-/* ---- pulling ---- */
+/* ---- holding ---- */
 
 pia_status pia_fit_open_normal(pia_fit *fit)
 {
@@ -103,21 +103,31 @@ static double mean_diagonal(const pia_fit *fit)
     return sum / (double)fit->op->cols;
 }
 
-/* Whether the limit, in the work array x [cols x dim], stays near the data. */
+static pia_index count_empty(const pia_fit *fit)
+{
+    const pia_op *op = fit->op;
+    pia_index empty = 0;
+    for (pia_index c = 0; c < op->cols; c++) empty += fit->normal->diagonal[c] == 0 && !(op->frozen != NULL && op->frozen[c]);
+    return empty;
+}
+
+/* Whether the limit is unique but for control points without any data, which stay, and near the data. x: work [cols x dim]. */
 static pia_status try_limit(pia_fit *fit, double *x, int *tame)
 {
     pia_normal *normal = fit->normal;
+    const double *start = fit->iterate.points;
     pia_index size = fit->op->cols * fit->dim;
     pia_status status = normal->class->factor(normal);
     if (status != PIA_OK) return status;
-    memcpy(x, normal->right, (size_t)size * sizeof *x);
+    normal->class->multiply(normal, start, fit->dim, x);
+    for (pia_index i = 0; i < size; i++) x[i] = normal->right[i] - x[i];
     normal->class->solve(normal, x, fit->dim);
-    *tame = 1;
-    for (pia_index i = 0; i < size; i++) *tame &= fabs(x[i]) <= TAME * fit->extent;
+    *tame = normal->weak <= count_empty(fit);
+    for (pia_index i = 0; i < size; i++) *tame &= fabs(start[i] + x[i]) <= TAME * fit->extent;
     return PIA_OK;
 }
 
-static pia_status pull(pia_fit *fit)
+static pia_status hold(pia_fit *fit)
 {
     pia_index size = fit->op->cols * fit->dim;
     double mean = mean_diagonal(fit);
@@ -126,6 +136,7 @@ static pia_status pull(pia_fit *fit)
     fit->pull_start = pia_take(fit->context, size, sizeof *fit->pull_start);
     pia_status status = x != NULL && fit->pull_start != NULL ? PIA_OK : pia_take_status(fit->context, size, sizeof *x);
     if (status == PIA_OK) memcpy(fit->pull_start, fit->iterate.points, (size_t)size * sizeof *x);
+    if (status == PIA_OK) status = try_limit(fit, x, &tame);
     for (int k = 0; k < PULLS && status == PIA_OK && !tame; k++) {
         fit->pull = pulls[k] * mean;
         status = pia_fit_open_normal(fit);
@@ -150,7 +161,7 @@ pia_status pia_fit_support(pia_fit *fit)
     if (fit->square || fit->normal == NULL) return PIA_OK;
     pia_status status = find_unsupported(fit);
     if (status != PIA_OK || fit->unsupported_count == 0 || fit->options.fairing > 0) return status;
-    return pull(fit);
+    return hold(fit);
 }
 
 void pia_fit_describe_support(pia_fit *fit)
@@ -158,7 +169,7 @@ void pia_fit_describe_support(pia_fit *fit)
     if (fit->unsupported_count == 0) return;
     pia_fit_outcome_add(fit,
                         fit->pull > 0 ? "control points that the data do not hold, kept near the start"
-                                      : "control points that the data do not hold, placed by fairing",
+                                      : "control points that the data do not hold, kept near the start",
                         fit->unsupported, fit->unsupported_count);
 }
 
