@@ -32,7 +32,7 @@ pia_status pia_fit_check_control(pia_fit *fit, int d, pia_index control)
     pia_context *context = fit->context;
     pia_index least = fit->closed[d] ? 3 : fit->degree[d] + 1, rows = fit->count[d];
     if (fit->closed[d] && least < fit->degree[d]) least = fit->degree[d];
-    if (fit->square && rows < least)
+    if (rows < least && fit->kind != PIA_SCATTERED && (fit->square || pia_fit_by_line(fit)))
         return pia_fail(context, PIA_E_DATA,
                         "%lld distinct points are too few for degree %d; lower the degree to %lld or give more points", (long long)rows,
                         fit->degree[d], (long long)(rows > 1 ? rows - 1 : 1));

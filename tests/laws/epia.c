@@ -301,6 +301,9 @@ static void what_epia_cannot_do_is_refused(void **state)
     options = epia_options(0);
     options.placement = "dominant-columns";
     assert_status(*state, pia_fit_open(*state, &data, &options, &fit), PIA_E_ARGUMENT);
+    data.count[0] = 3;
+    options = epia_options(0.01);
+    assert_status(*state, pia_fit_open(*state, &data, &options, &fit), PIA_E_DATA);
     assert_null(fit);
 }
 
