@@ -8,7 +8,7 @@
  *   fit_robust.c      weights of a robust loss                       fit_epia.c     groups and knot insertion of [2011]
  *   fit_noise.c       a tolerance that the noise suggests            fit_dominant.c Park's dominant columns
  *   sequence*.c       control points that stand for data lines       fit_corners.c  corners, found or given
- *   fit_support.c     control points that the data do not hold
+ *   fit_support.c     control points that the data do not hold        fit_correct.c  rounds of parameter correction
  *   refine*.c         knots for a tolerance */
 #ifndef PIA_FIT_FIT_H
 #define PIA_FIT_FIT_H
@@ -112,6 +112,8 @@ pia_status pia_fit_place(pia_fit *fit);
 pia_status pia_fit_operate(pia_fit *fit);
 /* Operator, normal form and iterate for the current knots, in place of the ones before; control points undefined. */
 pia_status pia_fit_assemble(pia_fit *fit);
+/* The same when rows, weights or parameters have changed: control points, frozen ones included, stay; the method begins anew. */
+pia_status pia_fit_reassemble(pia_fit *fit);
 pia_status pia_fit_initial(pia_fit *fit);
 /* Whether the method moves control points by groups of data; whether control points stand for data lines: that, or knots placed by
  * curvature. */
@@ -131,6 +133,9 @@ pia_status pia_fit_adopt_knots(pia_fit *fit, const pia_model *start);
 pia_status pia_fit_adopt_control(pia_fit *fit, const pia_model *start);
 /* Rows of a closed direction in the order in which the domain of its knots meets them. */
 pia_status pia_fit_turn(pia_fit *fit, int direction);
+/* Rounds of parameter correction after a least-squares fit of a curve has ended, and whether they are wanted and due. */
+int pia_fit_wants_correction(const pia_fit *fit);
+pia_status pia_fit_correct(pia_fit *fit);
 /* Moves the parameters of a curve to the closest points of the iterate nearby, never past the middle to a neighbour. */
 pia_status pia_fit_project(pia_iterate *iterate);
 

@@ -32,8 +32,7 @@ static pia_status refresh(pia_fit *fit, pia_index row)
     return status == PIA_OK ? pia_fit_restart(fit) : status;
 }
 
-/* Rows or weights have changed shape: operator and normal form anew, control points, frozen ones included, as they were. */
-static pia_status reassemble(pia_fit *fit)
+pia_status pia_fit_reassemble(pia_fit *fit)
 {
     pia_index size = fit->op->cols * fit->dim;
     double *points = pia_take(fit->context, size, sizeof *points);
@@ -123,7 +122,7 @@ pia_status pia_fit_weigh_point(pia_fit *fit, pia_index data_row, double weight)
     fit->weights = pia_take(fit->context, fit->rows, sizeof(double));
     if (fit->weights == NULL) return PIA_E_MEMORY;
     for (pia_index i = 0; i < fit->rows; i++) fit->weights[i] = i == row ? weight : 1;
-    return reassemble(fit);
+    return pia_fit_reassemble(fit);
 }
 
 /* A row between the sorted ones of a curve; scattered rows go to the end. */
@@ -210,7 +209,7 @@ pia_status pia_fit_add_points(pia_fit *fit, const pia_data *more)
         insert_row(fit, data.points + i * fit->dim, data.parameters + i * wide, data.weights != NULL ? data.weights[i] : 1,
                    fit->given + i);
     fit->given += data.count[0];
-    return reassemble(fit);
+    return pia_fit_reassemble(fit);
 }
 
 pia_status pia_fit_insert_knot(pia_fit *fit, int direction, double knot)
@@ -244,5 +243,5 @@ pia_status pia_fit_freeze(pia_fit *fit, const pia_index *control, pia_index coun
     for (pia_index i = 0; i < count && status == PIA_OK; i++)
         status = pia_op_freeze(fit->op, pia_op_unknown(fit->op, control[i]), frozen);
     if (status != PIA_OK) return status;
-    return fit->directions == 2 && fit->normal != NULL ? reassemble(fit) : pia_fit_restart(fit);
+    return fit->directions == 2 && fit->normal != NULL ? pia_fit_reassemble(fit) : pia_fit_restart(fit);
 }

@@ -19,6 +19,7 @@ pia_status pia_fit_step(pia_fit *fit, pia_index iterations, pia_report *report)
     if (iterations < 0) return pia_fail(fit->context, PIA_E_ARGUMENT, "%lld iterations are not a count", (long long)iterations);
     int refine = fit->refining && fit->solve.stop == PIA_STOP_NONE;
     pia_status status = refine ? pia_refine(fit, iterations) : step(fit, iterations);
+    if (status == PIA_OK && pia_fit_wants_correction(fit)) status = pia_fit_correct(fit);
     if (status == PIA_OK && fit->solve.stop != PIA_STOP_NONE) pia_fit_conclude(fit);
     if (status == PIA_OK && report != NULL) status = pia_fit_report(fit, report);
     return status;

@@ -60,7 +60,7 @@ pia_status pia_refine_curve(pia_fit *fit)
     for (int k = 0; status == PIA_OK && k < CORRECTIONS && spared > 0 && !pia_refine_stopped(fit); k++) {
         status = pia_refine_spare(fit, &spared);
         if (status == PIA_OK) status = pia_refine_count(fit);
-        if (fit->options.measure_distance == 0 || fit->iterate.project == NULL) break;
+        if ((fit->options.measure_distance == 0 && k >= fit->options.correct) || fit->iterate.project == NULL) break;
         if (status == PIA_OK) status = move_to_feet(fit);
     }
     return status;

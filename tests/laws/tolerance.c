@@ -422,6 +422,47 @@ static void the_noise_of_points_suggests_a_tolerance(void **state)
     pia_context_destroy(context);
 }
 
+static void correction_brings_points_closer(void **state)
+{
+    (void)state;
+    static const char *const methods[] = {"direct", "lspia", "cg"};
+    pia_context *context;
+    assert_ok(NULL, pia_context_create(NULL, &context));
+    for (size_t k = 0; k < sizeof methods / sizeof *methods; k++)
+        for (int closed = 0; closed < 2; closed++) {
+            pia_report plain = {.struct_size = sizeof plain}, corrected = {.struct_size = sizeof corrected};
+            problem p = wavy(3, closed, 2, 300, 0);
+            p.options.method = methods[k];
+            p.options.control[0] = 16;
+            p.options.parametrization = "uniform";
+            assert_ok(context, pia_fit_data(context, &p.data, &p.options, NULL, &plain));
+            p.options.correct = 5;
+            assert_ok(context, pia_fit_data(context, &p.data, &p.options, NULL, &corrected));
+            assert_true(corrected.rms_error < 0.9 * plain.rms_error);
+            assert_true(corrected.round_count > 0 && corrected.round_count <= 5);
+            assert_int_equal(corrected.stop, plain.stop);
+            free(p.points);
+        }
+    pia_context_destroy(context);
+}
+
+static void true_distance_needs_fewer_control_points(void **state)
+{
+    (void)state;
+    pia_context *context;
+    assert_ok(NULL, pia_context_create(NULL, &context));
+    problem p = wavy(3, 0, 2, 3000, 0.02);
+    pia_report plain = {.struct_size = sizeof plain}, distance = {.struct_size = sizeof distance};
+    assert_ok(context, pia_fit_data(context, &p.data, &p.options, NULL, &plain));
+    p.options.measure_distance = 1;
+    assert_ok(context, pia_fit_data(context, &p.data, &p.options, NULL, &distance));
+    assert_true(distance.control_count < plain.control_count);
+    assert_int_equal(distance.measure_distance, 1);
+    check_problem(context, &p, plain.control_count - 1);
+    free(p.points);
+    pia_context_destroy(context);
+}
+
 static int stop_at_once(void *user, const pia_report *so_far)
 {
     (void)so_far;
@@ -462,6 +503,8 @@ int main(void)
         cmocka_unit_test(a_corner_that_does_not_exist_is_refused),
         cmocka_unit_test(what_cannot_be_had_is_said),
         cmocka_unit_test(the_noise_of_points_suggests_a_tolerance),
+        cmocka_unit_test(correction_brings_points_closer),
+        cmocka_unit_test(true_distance_needs_fewer_control_points),
         cmocka_unit_test(single_steps_come_to_the_same_fit),
         cmocka_unit_test(a_cancelled_fit_keeps_a_model),
     };
