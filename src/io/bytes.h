@@ -35,6 +35,13 @@ static inline double pia_bytes_to_double(uint64_t bits)
     return value;
 }
 
+static inline float pia_bytes_to_float(uint32_t bits)
+{
+    float value;
+    memcpy(&value, &bits, sizeof value);
+    return value;
+}
+
 static inline uint64_t pia_bytes_of_double(double value)
 {
     uint64_t bits;

@@ -1,23 +1,6 @@
 #include "bytes.h"
 #include "npy_header.h"
-#include "text.h"
-
-static double load_value(const pia_npy_header *header, pia_index index)
-{
-    const char *at = header->values + index * header->size;
-    uint64_t bits = header->big ? pia_bytes_load_big(at, header->size) : pia_bytes_load_little(at, header->size);
-    int unused = 64 - 8 * header->size;
-    switch (header->type) {
-    case 'f':
-        if (header->size == 8) return pia_bytes_to_double(bits);
-        float narrow;
-        uint32_t half = (uint32_t)bits;
-        memcpy(&narrow, &half, sizeof narrow);
-        return (double)narrow;
-    case 'i': return (double)((int64_t)(bits << unused) >> unused);
-    default: return (double)bits;
-    }
-}
+#include "records.h"
 
 /* The array as [rows x columns] with the last direction as columns, in C order. slot[column] is the place of a column in a row of
  * `width` values, or -1; NULL: all columns in order. */
@@ -27,13 +10,14 @@ static void load_rows(const pia_npy_header *header, const pia_index *slot, pia_i
     pia_index columns = header->directions > 1 ? shape[header->directions - 1] : 1;
     pia_index inner = header->directions == 3 ? shape[1] : 1;
     pia_index rows = columns > 0 ? header->count / columns : 0;
+    const pia_record_type type = {header->type, header->size};
     for (pia_index i = 0; i < rows; i++) {
         /* In Fortran order the row (a, b) of a [A x B x columns] array begins at a + A b, and columns are `rows` apart. */
         pia_index begin = header->transpose ? i / inner + shape[0] * (i % inner) : i * columns;
         pia_index step = header->transpose ? rows : 1;
         for (pia_index c = 0; c < columns; c++) {
             pia_index to = slot != NULL ? slot[c] : c;
-            if (to >= 0) out[i * width + to] = load_value(header, begin + c * step);
+            if (to >= 0) out[i * width + to] = pia_record_load(header->values + (begin + c * step) * type.size, type, header->big);
         }
     }
 }

@@ -2,26 +2,6 @@
 
 #include <string.h>
 
-/* The names of the chosen columns, when the file has names. */
-static pia_status copy_names(pia_context *context, const pia_text_layout *layout, const pia_text_columns *columns, pia_points *out)
-{
-    if (layout->names.begin == NULL) return PIA_OK;
-    out->names = pia_take_zero(context, columns->count, sizeof *out->names);
-    if (out->names == NULL) return pia_take_status(context, columns->count, sizeof *out->names);
-    const char *p = layout->names.begin;
-    pia_text_field field;
-    for (pia_index f = 0; pia_text_next_field(&layout->names, layout->delimiter, &p, &field); f++) {
-        if (columns->slot[f] < 0) continue;
-        size_t length = (size_t)(field.end - field.begin);
-        char *name = pia_take(context, (pia_index)length + 1, 1);
-        if (name == NULL) return pia_take_status(context, (pia_index)length + 1, 1);
-        memcpy(name, field.begin, length);
-        name[length] = '\0';
-        out->names[columns->slot[f]] = name;
-    }
-    return PIA_OK;
-}
-
 /* The rows read are a matrix of heights: (column, row, height). */
 static pia_status make_grid(pia_context *context, const pia_input *input, pia_index columns, pia_points *points)
 {
@@ -48,7 +28,7 @@ static pia_status read_columns(pia_context *context, const pia_input *input, con
     if (options->grid) return make_grid(context, input, columns->count, out);
     out->kind = PIA_CURVE;
     out->dim = (int)columns->count;
-    return copy_names(context, layout, columns, out);
+    return pia_text_copy_names(context, layout, columns, out);
 }
 
 static pia_status read_points(pia_context *context, const pia_input *input, const pia_points_options *options, pia_points *out)

@@ -70,6 +70,9 @@ typedef struct pia_text_columns {
 pia_status pia_text_choose_columns(pia_context *context, const pia_input *input, const pia_text_layout *layout, const char *list,
                                    pia_text_columns *out);
 
+/* The names of the chosen columns into out->names [columns->count]; nothing when the layout has none. out->dim is that count. */
+pia_status pia_text_copy_names(pia_context *context, const pia_text_layout *layout, const pia_text_columns *columns, pia_points *out);
+
 /* Reads all rows into out->points [count[0] x columns->count], out->part and, where rows were skipped, out->row. */
 pia_status pia_text_read_rows(pia_context *context, const pia_input *input, const pia_text_layout *layout,
                               const pia_text_columns *columns, const pia_points_options *options, pia_points *out);

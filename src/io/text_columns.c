@@ -79,3 +79,22 @@ pia_status pia_text_choose_columns(pia_context *context, const pia_input *input,
     }
     return status;
 }
+
+pia_status pia_text_copy_names(pia_context *context, const pia_text_layout *layout, const pia_text_columns *columns, pia_points *out)
+{
+    if (layout->names.begin == NULL) return PIA_OK;
+    out->names = pia_take_zero(context, columns->count, sizeof *out->names);
+    if (out->names == NULL) return pia_take_status(context, columns->count, sizeof *out->names);
+    const char *p = layout->names.begin;
+    pia_text_field field;
+    for (pia_index f = 0; pia_text_next_field(&layout->names, layout->delimiter, &p, &field); f++) {
+        if (columns->slot[f] < 0) continue;
+        size_t length = (size_t)(field.end - field.begin);
+        char *name = pia_take(context, (pia_index)length + 1, 1);
+        if (name == NULL) return pia_take_status(context, (pia_index)length + 1, 1);
+        memcpy(name, field.begin, length);
+        name[length] = '\0';
+        out->names[columns->slot[f]] = name;
+    }
+    return PIA_OK;
+}

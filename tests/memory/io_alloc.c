@@ -33,6 +33,8 @@ static void readers_of_points_survive_every_failure(void **state)
     make_text("grey.pgm", "P2 2 2 9\n1 2 3 4\n");
     make_text("grid.asc", "ncols 2\nnrows 2\ncellsize 1\n1 2 3 4\n");
     make_text("mesh.obj", "v 1 2 3\nv 4 5 6\nv 4 5 nan\n");
+    make_text("cloud.ply", "ply\nformat ascii 1.0\nelement face 1\nproperty list uchar int i\nelement vertex 3\nproperty float x\n"
+                           "property float y\nproperty float z\nend_header\n2 0 1\n1 2 3\n4 5 nan\n7 8 9\n");
     pia_context *context = NULL;
     assert_ok(NULL, pia_context_create(NULL, &context));
     assert_ok(context, pia_table_write(context, path_of("array.npy"), NULL, NULL, line, 2, 2));
@@ -45,6 +47,7 @@ static void readers_of_points_survive_every_failure(void **state)
         {"grey.pgm", {.struct_size = size}},
         {"grid.asc", {.struct_size = size}},
         {"mesh.obj", {.struct_size = size, .skip_invalid = 1}},
+        {"cloud.ply", {.struct_size = size, .skip_invalid = 1}},
         {"array.npy", {.struct_size = size}},
         {"array.npy", {.struct_size = size, .grid = 1}},
         {"array.npy", {.struct_size = size, .columns = "2"}},
