@@ -6,7 +6,7 @@ add_library(pia_flags INTERFACE)
 target_compile_features(pia_flags INTERFACE c_std_17)
 # -ffp-contract=off: a result must not depend on which compiler saw a multiplication beside an addition.
 target_compile_options(pia_flags INTERFACE -ffp-contract=off -fno-math-errno -Wall -Wextra -Wpedantic -Wshadow -Wstrict-prototypes
-  -Wmissing-prototypes -Wvla -Wundef -Wwrite-strings -Wcast-qual $<$<C_COMPILER_ID:GNU>:-Wno-format-truncation> $<$<BOOL:${PIA_WERROR}>:-Werror>)
+  -Wmissing-prototypes -Wno-psabi -Wvla -Wundef -Wwrite-strings -Wcast-qual $<$<C_COMPILER_ID:GNU>:-Wno-format-truncation> $<$<BOOL:${PIA_WERROR}>:-Werror>)
 target_compile_definitions(pia_flags INTERFACE _GNU_SOURCE PIA_VERSION="${PROJECT_VERSION}")
 
 set(PIA_OBJECTS "" CACHE INTERNAL "")

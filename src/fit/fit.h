@@ -142,6 +142,9 @@ pia_status pia_fit_project(pia_iterate *iterate);
 /* Opens without a copy of the data where the method allows: data outlives the fit. */
 pia_status pia_fit_borrow(pia_context *context, const pia_data *data, const pia_fit_options *options, pia_fit **out);
 
+/* pia_fit_model for a fit that can only be closed afterwards: its arrays become the model's where they can. */
+pia_status pia_fit_turn_into_model(pia_fit *fit, pia_model **out);
+
 /* The constraints of the options; then the rows that the list makes on the current operator (bind), and their end. */
 pia_status pia_fit_take_constraints(pia_fit *fit);
 pia_status pia_fit_bind(pia_fit *fit);

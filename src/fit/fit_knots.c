@@ -1,6 +1,7 @@
 /* Knots and operators: placed, given, or those of the start model. */
 #include "fit.h"
 
+#include "kernel.h"
 #include "knots.h"
 #include "model.h"
 #include "op_scatter.h"
@@ -8,6 +9,8 @@
 
 #include <math.h>
 #include <string.h>
+
+enum { CHEAP_DEGREE = 4 }; /* up to here basis values are computed sooner than fetched from memory */
 
 pia_status pia_fit_take_knots(pia_fit *fit, int d, pia_index full)
 {
@@ -77,7 +80,7 @@ static pia_status given_direction(pia_fit *fit, int d, const double *knots, pia_
     pia_status status = pia_fit_check_control(fit, d, n);
     if (status == PIA_OK && !fit->closed[d]) status = pia_knots_check(fit->context, fit->degree[d], knots, count, full);
     if (status == PIA_OK) status = pia_fit_take_knots(fit, d, full);
-    if (status == PIA_OK) memcpy(fit->knots[d], knots, (size_t)count * sizeof(double));
+    if (status == PIA_OK) pia_copy(fit->context, fit->knots[d], knots, count);
     return status;
 }
 
@@ -241,35 +244,56 @@ static pia_index cyclic_offset(const pia_fit *fit, int d)
     return fit->square && fit->closed[d] ? ((-(fit->offset[d] + fit->degree[d] / 2)) % n + n) % n : 0;
 }
 
+/* Whether the basis function of unknown `row` is positive at row's parameter. */
+static int is_held(const pia_collocation *c, pia_index row)
+{
+    double scratch[PIA_MAX_DEGREE + 1];
+    pia_index span = pia_collocation_span(c, row);
+    const double *value = pia_collocation_row(c, row, span, scratch);
+    int held = 0;
+    for (int k = 0; k <= c->degree; k++) held |= pia_collocation_unknown(c, span - c->degree + k) == row && value[k] > 0;
+    return held;
+}
+
+/* Without copies, a parameter inside the support of its row's function is enough; at an end of it, the value decides. */
+static int are_held(const void *data, pia_index from, pia_index to)
+{
+    const pia_collocation *c = data;
+    for (pia_index row = from; row < to; row++) {
+        double t = c->parameters[row];
+        int inside = c->map == PIA_MAP_IDENTITY && c->knots[row] < t && t < c->knots[row + c->degree + 1];
+        if (!inside && !is_held(c, row)) return 0;
+    }
+    return 1;
+}
+
 static pia_status check_held(pia_fit *fit, int d)
 {
     const pia_collocation *c = &fit->line[d];
-    double scratch[PIA_MAX_DEGREE + 1];
-    for (pia_index row = 0; fit->square && row < c->rows; row++) {
-        pia_index span = pia_collocation_span(c, row), column = -1;
-        const double *value = pia_collocation_row(c, row, span, scratch);
-        for (int k = 0; k <= c->degree; k++)
-            if (pia_collocation_unknown(c, span - c->degree + k) == row && value[k] > 0) column = row;
-        if (column < 0)
+    if (!fit->square || pia_all(fit->context, c->rows, are_held, c)) return PIA_OK;
+    for (pia_index row = 0; row < c->rows; row++)
+        if (!is_held(c, row))
             return pia_fail(fit->context, PIA_E_DATA,
                             "knots and parameters do not belong together: control point %lld of direction %c has no hold on its data "
                             "point (Schoenberg-Whitney); place knots by --knots average",
                             (long long)row, 'u' + d);
-    }
     return PIA_OK;
 }
 
 pia_status pia_fit_operate(pia_fit *fit)
 {
     pia_status status = pia_fit_take_loss(fit);
-    int keep_values = (fit->solve.method->needs & PIA_NEEDS_ROWS) != 0 || fit->kind == PIA_GRID;
     if (status != PIA_OK) return status;
+    int keep = fit->kind == PIA_GRID ? PIA_STORE_VALUES : 0;
+    if (fit->kind == PIA_CURVE && (fit->solve.method->needs & PIA_NEEDS_ROWS) != 0 && fit->degree[0] > CHEAP_DEGREE)
+        keep |= PIA_STORE_VALUES;
+    if (fit->kind == PIA_CURVE && fit->square) keep |= PIA_WITHOUT_BEGINS;
     if (fit->kind == PIA_SCATTERED)
         return pia_op_scatter_open(fit->context, fit->degree, fit->map, (const double *const *)fit->knots, fit->full, fit->parameter[0],
                                    fit->rows, pia_fit_row_weights(fit), fit->dim, &fit->op);
     for (int d = 0; d < fit->directions && status == PIA_OK; d++) {
         status = pia_collocation_open(fit->context, fit->degree[d], fit->map[d], cyclic_offset(fit, d), fit->knots[d], fit->full[d],
-                                      fit->parameter[d], fit->count[d], keep_values, &fit->line[d]);
+                                      fit->parameter[d], fit->count[d], keep, &fit->line[d]);
         if (status == PIA_OK && fit->placement == NULL) status = check_held(fit, d);
     }
     if (status != PIA_OK) return status;

@@ -4,6 +4,7 @@
 #include "model.h"
 #include "options.h"
 #include "sequence.h"
+#include "windows.h"
 
 #include <math.h>
 #include <string.h>
@@ -106,6 +107,15 @@ static void drop_assembly(pia_fit *fit)
     *iterate = (pia_iterate){.context = fit->context, .iteration = iterate->iteration};
 }
 
+/* The one call interpolates in one step and nobody asks for what was before: control points need not start as a copy of the data. */
+static int is_one_step(const pia_fit *fit)
+{
+    const pia_fit_options *o = &fit->options;
+    int asked = o->tolerance > 0 || o->time_limit > 0 || o->trace_every > 0 || o->progress != NULL || o->max_iterations == 0;
+    return fit->borrowed && fit->square && (fit->solve.method->needs & PIA_IS_FINITE) != 0 && !asked && o->start == NULL &&
+           o->freeze_count == 0 && o->constraint_count == 0 && pia_windows_suit(fit->op);
+}
+
 static pia_status take_iterate(pia_fit *fit)
 {
     pia_iterate *iterate = &fit->iterate;
@@ -115,9 +125,10 @@ static pia_status take_iterate(pia_fit *fit)
     iterate->targets = (pia_targets){fit->points, fit->origin, fit->dim};
     iterate->square = fit->square;
     iterate->constraint_error = iterate->relative_gradient = NAN;
-    iterate->points = pia_take(fit->context, size, sizeof(double));
+    int blank = is_one_step(fit);
+    if (!blank) iterate->points = pia_take(fit->context, size, sizeof(double));
     iterate->adjust = pia_take(fit->context, size, sizeof(double));
-    if (iterate->points == NULL || iterate->adjust == NULL) return PIA_E_MEMORY;
+    if ((!blank && iterate->points == NULL) || iterate->adjust == NULL) return PIA_E_MEMORY;
     unsigned needs = fit->solve.method->needs;
     if (!fit->square && !pia_fit_is_grouped(fit)) {
         pia_status status = pia_fit_open_normal(fit);

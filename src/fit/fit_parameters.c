@@ -137,6 +137,7 @@ static pia_status separate(pia_fit *fit, int direction)
 {
     pia_index lines = fit->count[direction], other = fit->rows / lines, repeats = 0;
     const double *t = fit->parameter[direction];
+    if (pia_scan_rising(fit->context, t, lines)) return PIA_OK;
     for (pia_index i = 1; i < lines; i++) repeats += !(t[i] > t[i - 1]);
     if (repeats == 0) return PIA_OK;
     unsigned char *keep = pia_take(fit->context, lines, 1);

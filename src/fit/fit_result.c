@@ -1,8 +1,6 @@
-/* What a fit tells: report, trace, notes, residuals, parameters, and the model of the current iterate. */
+/* What a fit tells: report, trace, notes, residuals, parameters. */
 #include "fit.h"
 
-#include "knots.h"
-#include "model.h"
 #include "options.h"
 #include "refine.h"
 
@@ -126,78 +124,5 @@ pia_status pia_fit_parameters(pia_fit *fit, const double **parameters, pia_index
         *parameters = fit->all_parameters;
     }
     if (row != NULL) *row = fit->row;
-    return PIA_OK;
-}
-
-/* Control points of the model [fulls x (dim + graph)]: the iterate moved back from the origin; a function graph's abscissas are the
- * Greville line, which makes x the identity. */
-static void fill_control(pia_fit *fit, double *out)
-{
-    const pia_op *op = fit->op;
-    int dim = fit->dim, graph = fit->function_graph, wide = dim + graph;
-    for (pia_index i = 0; i < op->fulls; i++) {
-        const double *x = fit->iterate.points + pia_op_unknown(op, i) * dim;
-        if (graph) out[i * wide] = pia_knots_greville(fit->knots[0], fit->degree[0], i);
-        for (int d = 0; d < dim; d++) out[i * wide + graph + d] = x[d] + fit->origin[d];
-    }
-}
-
-pia_status pia_fit_bare_model(pia_fit *fit, pia_model **out)
-{
-    int wide = fit->dim + fit->function_graph;
-    if (!fit->closed[0] && !(fit->directions == 2 && fit->closed[1])) {
-        pia_status status = pia_model_new(fit->context, fit->directions, fit->degree, fit->full, wide, 0, out);
-        if (status != PIA_OK) return status;
-        for (int d = 0; d < fit->directions; d++)
-            memcpy((*out)->knots[d], fit->knots[d], (size_t)(fit->full[d] + fit->degree[d] + 1) * sizeof(double));
-        fill_control(fit, (*out)->points);
-        return PIA_OK;
-    }
-    double *points = pia_take(fit->context, fit->op->fulls * wide, sizeof *points);
-    if (points == NULL) return PIA_E_MEMORY;
-    fill_control(fit, points);
-    pia_status status = pia_model_from_cyclic(fit->context, fit->directions, fit->degree, (const double *const *)fit->knots, fit->full,
-                                              fit->closed, wide, points, out);
-    pia_give(fit->context, points);
-    return status;
-}
-
-enum { MOST_KEPT = 1000000 };
-
-/* Parameters are kept with the model where they cannot be computed again from the points, given and corrected ones, unless they are so
- * many that a copy would weigh on memory. */
-static pia_status attach_summary(pia_fit *fit, pia_model *model)
-{
-    const pia_memory *memory = pia_memory_of(fit->context);
-    pia_summary summary = {.notes = fit->notes, .dropped = fit->dropped, .dropped_count = fit->dropped_count};
-    double *parameters = NULL;
-    pia_status status = pia_fit_report(fit, &summary.report);
-    if (status != PIA_OK) return status;
-    if ((fit->parametrization == NULL || fit->parameters_moved) && parameter_count(fit) <= MOST_KEPT) {
-        parameters = pia_take(fit->context, parameter_count(fit), sizeof *parameters);
-        if (parameters == NULL) return PIA_E_MEMORY;
-        copy_parameters(fit, parameters);
-        summary.parameters = parameters;
-        summary.parameter_count = parameter_count(fit);
-    }
-    model->summary = pia_summary_copy(memory, &summary);
-    if (model->summary != NULL) pia_notes_copy(memory, &model->summary->notes, &fit->outcome);
-    pia_give(fit->context, parameters);
-    return model->summary != NULL ? PIA_OK : pia_fail(fit->context, PIA_E_MEMORY, "out of memory for the summary of the fit");
-}
-
-pia_status pia_fit_model(pia_fit *fit, pia_model **out)
-{
-    if (out == NULL) return pia_fail(fit->context, PIA_E_ARGUMENT, "out is NULL");
-    pia_model *model;
-    pia_fit_conclude(fit);
-    pia_status status = pia_fit_bare_model(fit, &model);
-    if (status != PIA_OK) return status;
-    status = attach_summary(fit, model);
-    if (status != PIA_OK) {
-        pia_model_destroy(model);
-        return status;
-    }
-    *out = model;
     return PIA_OK;
 }

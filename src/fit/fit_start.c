@@ -86,7 +86,7 @@ pia_status pia_fit_initial(pia_fit *fit)
     if (fit->kind == PIA_SCATTERED && pia_fit_is_grouped(fit)) return pia_epia_start(fit);
     if (fit->kind == PIA_SCATTERED || fit->has_holes)
         from_means(fit);
-    else
+    else if (fit->iterate.points != NULL)
         from_data(fit);
     return PIA_OK;
 }

@@ -30,4 +30,10 @@ void pia_for_each(pia_context *context, pia_index chunks, pia_task *task, void *
 pia_index pia_chunk_count(pia_index count, pia_index grain);
 pia_index pia_chunk_begin(pia_index count, pia_index chunks, pia_index chunk);
 
+/* Whether `check` holds for all items of 0 .. count - 1, asked in chunks [from, to) side by side. */
+typedef int pia_check(const void *data, pia_index from, pia_index to);
+int pia_all(pia_context *context, pia_index count, pia_check *check, const void *data);
+/* to [count] = from. */
+void pia_copy(pia_context *context, double *to, const double *from, pia_index count);
+
 #endif

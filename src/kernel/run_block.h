@@ -1,16 +1,13 @@
-/* Runs are taken in blocks that stay in the first-level cache, a component after the other, in lanes: two are what every 64-bit
- * processor has. */
+/* Runs are taken in blocks that stay in the first-level cache, a component after the other, in lanes. */
 #ifndef PIA_KERNEL_RUN_BLOCK_H
 #define PIA_KERNEL_RUN_BLOCK_H
 
 #include <string.h>
 
-#include "clones.h"
 #include "run.h"
+#include "vector.h"
 
-enum { PIA_LANES = 4, PIA_BLOCK = 64 };
-
-typedef double pia_lanes __attribute__((vector_size(PIA_LANES * sizeof(double))));
+enum { PIA_BLOCK = 64 };
 
 PIA_INLINE int pia_block_count(const pia_run *run, pia_index done)
 {

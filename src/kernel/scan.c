@@ -5,7 +5,7 @@
 
 #include <math.h>
 
-enum { TOGETHER = 4, LANES = TOGETHER * PIA_MAX_DIM, GRAIN = 65536, MAX_CHUNKS = 256 };
+enum { TOGETHER = 4, LANES = TOGETHER * PIA_MAX_DIM };
 
 /* Rows are taken four at a time as one array of 4 dim lanes, so that the inner loop has no stride. A value that is not finite times 0
  * is NaN and stays in its sum. */
@@ -56,35 +56,35 @@ int pia_scan_box(const double *points, pia_index rows, int dim, double *low, dou
     return !isnan(total);
 }
 
-typedef struct order {
-    const double *values;
-    pia_index count, chunks;
-    int *ordered; /* [chunks] */
-} order;
-
-PIA_CLONES static int never_falls(const double *values, pia_index count)
+/* Item i is the pair of values i, i + 1. */
+PIA_CLONES static int never_falls(const void *data, pia_index from, pia_index to)
 {
-    int rises = 1;
-    for (pia_index i = 1; i < count; i++) rises &= values[i] >= values[i - 1];
-    return rises;
+    const double *values = data;
+    int all = 1;
+    for (pia_index i = from; i < to; i++) all &= values[i] <= values[i + 1];
+    return all;
 }
 
-static void check_chunk(void *work, pia_index chunk)
+PIA_CLONES static int always_rises(const void *data, pia_index from, pia_index to)
 {
-    const order *o = work;
-    pia_index from = pia_chunk_begin(o->count, o->chunks, chunk), to = pia_chunk_begin(o->count, o->chunks, chunk + 1);
-    if (from > 0) from--; /* beside the last one of the chunk before */
-    o->ordered[chunk] = never_falls(o->values + from, to - from);
+    const double *values = data;
+    int all = 1;
+    for (pia_index i = from; i < to; i++) all &= values[i] < values[i + 1];
+    return all;
+}
+
+/* What lies between finite values in order is finite. */
+static int ends_are_finite(const double *values, pia_index count)
+{
+    return count < 1 || (isfinite(values[0]) && isfinite(values[count - 1]));
 }
 
 int pia_scan_ordered(pia_context *context, const double *values, pia_index count)
 {
-    int ordered[MAX_CHUNKS];
-    order o = {values, count, pia_chunk_count(count, GRAIN), ordered};
-    if (count < 1) return 1;
-    if (o.chunks > MAX_CHUNKS) o.chunks = MAX_CHUNKS;
-    pia_for_each(context, o.chunks, check_chunk, &o);
-    int all = isfinite(values[0]) && isfinite(values[count - 1]);
-    for (pia_index c = 0; c < o.chunks; c++) all &= ordered[c];
-    return all;
+    return ends_are_finite(values, count) && pia_all(context, count - 1, never_falls, values);
+}
+
+int pia_scan_rising(pia_context *context, const double *values, pia_index count)
+{
+    return ends_are_finite(values, count) && pia_all(context, count - 1, always_rises, values);
 }

@@ -10,5 +10,7 @@ int pia_scan_box(const double *points, pia_index rows, int dim, double *low, dou
 
 /* 1 when the values are finite and never decrease. */
 int pia_scan_ordered(pia_context *context, const double *values, pia_index count);
+/* 1 when the values are finite and always increase. */
+int pia_scan_rising(pia_context *context, const double *values, pia_index count);
 
 #endif

@@ -3,18 +3,23 @@
 #include "constraint.h"
 #include "method.h"
 #include "square.h"
+#include "windows.h"
 
 #include <math.h>
 
 enum { ENOUGH_STEPS = 4 };
+
+static const double ENOUGH = 1e-14; /* error or gradient of a limit, as far as rounding lets anybody see */
 
 typedef struct direct {
     double steps, left; /* what the step before left: the largest error, or the relative gradient */
 } direct;
 
 /* Residuals go straight into D, so that no second array of them is needed. */
-static double remaining_error(pia_iterate *iterate)
+static double remaining_error(pia_iterate *iterate, double steps)
 {
+    double known = iterate->errors_known ? iterate->errors.max / iterate->extent : INFINITY;
+    if (steps > 0 && known <= ENOUGH) return known; /* no step will follow, and no residual is needed */
     iterate->errors = pia_op_residual(iterate->op, iterate->points, &iterate->targets, iterate->adjust);
     iterate->errors_known = iterate->residual == NULL;
     return iterate->errors.max / iterate->extent;
@@ -52,13 +57,60 @@ static pia_status adjust(pia_iterate *iterate, void *state)
     direct *d = state;
     if (!iterate->square && iterate->normal == NULL)
         return pia_fail(iterate->context, PIA_E_ARGUMENT, "direct has no normal equations here; use cg");
-    double left = iterate->square ? remaining_error(iterate) : remaining_gradient(iterate);
-    iterate->finished = d->steps > 0 && (left < 1e-14 || left > d->left / 4 || d->steps >= ENOUGH_STEPS);
+    double left = iterate->square ? remaining_error(iterate, d->steps) : remaining_gradient(iterate);
+    iterate->finished = d->steps > 0 && (left <= ENOUGH || left > d->left / 4 || d->steps >= ENOUGH_STEPS);
     if (iterate->finished) return PIA_OK;
     pia_status status = solve(iterate, d->steps);
     d->left = left;
     d->steps++;
     return status;
+}
+
+/* The targets become control points, for a step that needs them as numbers. */
+static pia_status take_points(pia_iterate *iterate)
+{
+    pia_index count = iterate->op->cols * iterate->dim;
+    if (iterate->points != NULL) return PIA_OK;
+    iterate->points = pia_take(iterate->context, count, sizeof *iterate->points);
+    if (iterate->points == NULL) return PIA_E_MEMORY;
+    for (pia_index i = 0; i < count; i++) iterate->points[i] = iterate->targets.points[i] - iterate->targets.origin[i % iterate->dim];
+    return PIA_OK;
+}
+
+static pia_status take_adjust(pia_iterate *iterate)
+{
+    if (iterate->adjust == NULL) iterate->adjust = pia_take(iterate->context, iterate->op->cols * iterate->dim, sizeof(double));
+    return iterate->adjust != NULL ? PIA_OK : PIA_E_MEMORY;
+}
+
+static pia_status step_by_windows(pia_iterate *iterate, direct *d, int *done)
+{
+    pia_step_errors errors;
+    pia_status status = pia_windows_step(iterate->op, iterate->points, &iterate->targets, iterate->adjust, &errors, done);
+    if (status != PIA_OK || !*done) return status;
+    iterate->errors = errors.before;
+    iterate->next_errors = errors.after;
+    iterate->errors_known = iterate->next_errors_known = 1;
+    iterate->adjust_max = errors.moved;
+    d->left = errors.before.max / iterate->extent;
+    d->steps++;
+    return PIA_OK;
+}
+
+static pia_status step(pia_iterate *iterate, void *state)
+{
+    direct *d = state;
+    int done = 0;
+    pia_status status = take_adjust(iterate);
+    if (status == PIA_OK && iterate->square && d->steps == 0 && pia_windows_suit(iterate->op))
+        status = step_by_windows(iterate, d, &done);
+    if (status != PIA_OK || done) return status;
+    status = take_points(iterate);
+    if (status == PIA_OK) status = adjust(iterate, state);
+    if (status != PIA_OK || iterate->finished) return status;
+    iterate->adjust_max = pia_iterate_longest(iterate, iterate->adjust);
+    pia_iterate_add(iterate, iterate->adjust, iterate->points);
+    return PIA_OK;
 }
 
 const pia_method pia_method_direct = {
@@ -70,4 +122,5 @@ const pia_method pia_method_direct = {
     .iterations = ENOUGH_STEPS,
     .state_size = sizeof(direct),
     .adjust = adjust,
+    .step = step,
 };

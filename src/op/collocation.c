@@ -33,10 +33,15 @@ static pia_index first_from(const pia_collocation *c, pia_index row, double righ
     return low;
 }
 
+static void find_last(pia_collocation *c)
+{
+    c->last = c->full - 1;
+    while (c->last > c->degree && !(c->knots[c->last] < c->knots[c->last + 1])) c->last--;
+}
+
 static void find_begins(pia_collocation *c)
 {
-    pia_index row = 0, last = spans(c) - 1;
-    while (last > 0 && !(c->knots[c->degree + last] < c->knots[c->degree + last + 1])) last--;
+    pia_index row = 0, last = c->last - c->degree;
     for (pia_index s = 0; s <= last; s++) {
         c->begin[s] = row;
         row = s == last ? c->rows : first_from(c, row, c->knots[c->degree + s + 1]);
@@ -51,14 +56,15 @@ static void fill_values(void *work, pia_index chunk)
     pia_index from = pia_chunk_begin(c->rows, chunks, chunk), to = pia_chunk_begin(c->rows, chunks, chunk + 1);
     pia_index span = pia_collocation_span(c, from);
     for (pia_index row = from; row < to; row++) {
-        while (row >= c->begin[span - c->degree + 1]) span++;
+        span = pia_collocation_advance(c, row, span);
         pia_basis_values(c->knots, c->degree, span, c->parameters[row], c->values + row * (c->degree + 1));
     }
 }
 
 void pia_collocation_rebucket(pia_collocation *c)
 {
-    find_begins(c);
+    find_last(c);
+    if (c->begin != NULL) find_begins(c);
     if (c->values != NULL) {
         pia_index chunks = pia_chunk_count(c->rows, GRAIN);
         for (pia_index chunk = 0; chunk < chunks; chunk++) fill_values(c, chunk);
@@ -66,24 +72,28 @@ void pia_collocation_rebucket(pia_collocation *c)
 }
 
 pia_status pia_collocation_open(pia_context *context, int degree, pia_map map, pia_index offset, const double *knots, pia_index full,
-                                const double *parameters, pia_index rows, int keep_values, pia_collocation *out)
+                                const double *parameters, pia_index rows, int keep, pia_collocation *out)
 {
     pia_collocation c = {
         .degree = degree, .map = map, .full = full, .rows = rows, .knots = knots, .parameters = parameters, .offset = offset};
     c.unknowns = map == PIA_MAP_IDENTITY ? full : map == PIA_MAP_CYCLIC ? full - degree : full - 2;
     if (c.unknowns < 1 || full <= degree)
         return pia_fail(context, PIA_E_SHAPE, "%lld control points are too few for degree %d", (long long)full, degree);
-    c.begin = pia_take(context, full - degree + 1, sizeof *c.begin);
-    if (c.begin == NULL) return pia_take_status(context, full - degree + 1, sizeof *c.begin);
-    if (keep_values) {
-        c.values = pia_take(context, rows, (size_t)(degree + 1) * sizeof *c.values);
+    pia_index begins = keep & PIA_WITHOUT_BEGINS ? 0 : full - degree + 1, values = keep & PIA_STORE_VALUES ? rows : 0;
+    find_last(&c);
+    if (begins > 0) {
+        c.begin = pia_take(context, begins, sizeof *c.begin);
+        if (c.begin == NULL) return pia_take_status(context, begins, sizeof *c.begin);
+        find_begins(&c);
+    }
+    if (values > 0) {
+        c.values = pia_take(context, values, (size_t)(degree + 1) * sizeof *c.values);
         if (c.values == NULL) {
             pia_collocation_close(context, &c);
-            return pia_take_status(context, rows, (size_t)(degree + 1) * sizeof *c.values);
+            return pia_take_status(context, values, (size_t)(degree + 1) * sizeof *c.values);
         }
+        pia_for_each(context, pia_chunk_count(rows, GRAIN), fill_values, &c);
     }
-    find_begins(&c);
-    if (keep_values && rows > 0) pia_for_each(context, pia_chunk_count(rows, GRAIN), fill_values, &c);
     *out = c;
     return PIA_OK;
 }
@@ -97,16 +107,12 @@ void pia_collocation_close(pia_context *context, pia_collocation *c)
 
 pia_index pia_collocation_span(const pia_collocation *c, pia_index row)
 {
-    pia_index low = 0, high = spans(c);
-    while (high - low > 1) {
-        pia_index middle = low + (high - low) / 2;
-        if (c->begin[middle] <= row)
-            low = middle;
-        else
-            high = middle;
-    }
-    while (low > 0 && c->begin[low + 1] <= row) low++;
-    return c->degree + low;
+    return pia_knots_span(c->knots, c->degree, c->full, c->parameters[row]);
+}
+
+pia_index pia_collocation_begin(const pia_collocation *c, pia_index span)
+{
+    return span <= c->degree ? 0 : span > c->last ? c->rows : first_from(c, 0, c->knots[span]);
 }
 
 const double *pia_collocation_row(const pia_collocation *c, pia_index row, pia_index span, double *scratch)
@@ -146,12 +152,13 @@ void pia_collocation_column_sums(const pia_collocation *c, const double *weights
 {
     double scratch[PIA_MAX_DEGREE + 1];
     memset(sums, 0, (size_t)c->unknowns * sizeof *sums);
-    for (pia_index s = 0; s < spans(c); s++)
-        for (pia_index row = c->begin[s]; row < c->begin[s + 1]; row++) {
-            const double *value = pia_collocation_row(c, row, c->degree + s, scratch);
-            double w = weights != NULL ? weights[row] : 1;
-            for (int k = 0; k <= c->degree; k++) sums[pia_collocation_unknown(c, s + k)] += w * value[k];
-        }
+    pia_index span = c->degree;
+    for (pia_index row = 0; row < c->rows; row++) {
+        span = pia_collocation_advance(c, row, span);
+        const double *value = pia_collocation_row(c, row, span, scratch);
+        double w = weights != NULL ? weights[row] : 1;
+        for (int k = 0; k <= c->degree; k++) sums[pia_collocation_unknown(c, span - c->degree + k)] += w * value[k];
+    }
 }
 
 int pia_collocation_entries(const pia_collocation *c, pia_index row, pia_index span, pia_index *first, double *entries)

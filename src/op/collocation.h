@@ -17,15 +17,20 @@ typedef struct pia_collocation {
     pia_index full, unknowns, rows;
     const double *knots;      /* [full + degree + 1], borrowed */
     const double *parameters; /* [rows], non-decreasing, inside the domain, borrowed */
-    pia_index *begin;         /* [full - degree + 1]: rows of span degree + s are begin[s] .. begin[s + 1] - 1 */
+    pia_index last;           /* the last span that is not empty; it owns the right end of the domain */
+    pia_index *begin;         /* [full - degree + 1]: rows of span degree + s are begin[s] .. begin[s + 1] - 1; NULL: not kept */
     double *values;           /* [rows x (degree + 1)] basis values, or NULL: evaluated where needed */
     pia_index offset;         /* cyclic: full column i is unknown (i + offset) mod unknowns; interpolation chooses it so that unknown c
                                  is centred on row c */
 } pia_collocation;
 
-/* keep_values: store the basis values (8 (degree + 1) bytes a row), for methods that pass over the rows often. */
+enum {
+    PIA_STORE_VALUES = 1,  /* basis values (8 (degree + 1) bytes a row), for methods that pass over the rows often */
+    PIA_WITHOUT_BEGINS = 2 /* no `begin` (8 bytes a span): nothing will ask for the rows of a span */
+};
+
 pia_status pia_collocation_open(pia_context *context, int degree, pia_map map, pia_index offset, const double *knots, pia_index full,
-                                const double *parameters, pia_index rows, int keep_values, pia_collocation *out);
+                                const double *parameters, pia_index rows, int keep, pia_collocation *out);
 void pia_collocation_close(pia_context *context, pia_collocation *c);
 /* The parameters behind the pointer have changed (still sorted): spans and values anew. */
 void pia_collocation_rebucket(pia_collocation *c);
@@ -34,6 +39,14 @@ void pia_collocation_rebucket(pia_collocation *c);
 const double *pia_collocation_row(const pia_collocation *c, pia_index row, pia_index span, double *scratch);
 /* Span of a row; O(log spans). */
 pia_index pia_collocation_span(const pia_collocation *c, pia_index row);
+/* Span of a row, from that of a row before it. */
+static inline pia_index pia_collocation_advance(const pia_collocation *c, pia_index row, pia_index span)
+{
+    while (span < c->last && c->parameters[row] >= c->knots[span + 1]) span++;
+    return span;
+}
+/* First row of span `span` or a later one. O(log rows). */
+pia_index pia_collocation_begin(const pia_collocation *c, pia_index span);
 /* The unknown behind a full column. */
 pia_index pia_collocation_unknown(const pia_collocation *c, pia_index column);
 

@@ -60,6 +60,26 @@ double pia_iterate_longest(const pia_iterate *iterate, const double *x)
     return sqrt(worst);
 }
 
+typedef struct addition {
+    double *x;
+    const double *y;
+    pia_index count, chunks;
+} addition;
+
+static void add_chunk(void *work, pia_index chunk)
+{
+    const addition *a = work;
+    pia_index to = pia_chunk_begin(a->count, a->chunks, chunk + 1);
+    for (pia_index i = pia_chunk_begin(a->count, a->chunks, chunk); i < to; i++) a->x[i] += a->y[i];
+}
+
+void pia_iterate_add(const pia_iterate *iterate, double *x, const double *y)
+{
+    pia_index count = iterate->op->cols * iterate->dim;
+    addition a = {x, y, count, chunk_count(count)};
+    pia_for_each(iterate->context, a.chunks, add_chunk, &a);
+}
+
 void pia_iterate_measure(pia_iterate *iterate)
 {
     if (iterate->errors_known) return;

@@ -14,8 +14,9 @@ typedef struct pia_iterate {
     pia_targets targets;
     int dim;
     double extent;                       /* diagonal of the data's bounding box, > 0 */
-    double *points;                      /* P [cols x dim], centred on the targets' origin */
-    double *adjust;                      /* D [cols x dim]; a fused step writes the next P here instead */
+    double *points;                      /* P [cols x dim], centred on the targets' origin; NULL: the targets, until the first step */
+    double *adjust;                      /* D [cols x dim]; a fused step writes the next P here instead; NULL after such a step where
+                                            P was NULL */
     double *residual;                    /* R [rows x dim]; NULL unless the method needs rows or there is no normal form */
     double right_norm;                   /* |A'W(Q - origin)|, the scale of relative gradients; 0: unknown, gradients are absolute */
     struct pia_constraints *constraints; /* NULL: none */
@@ -23,6 +24,8 @@ typedef struct pia_iterate {
     pia_index iteration;                 /* updates done */
     pia_errors errors;                   /* of P, when errors_known */
     int errors_known;
+    pia_errors next_errors; /* of the next P, when next_errors_known: a fused step may measure them */
+    int next_errors_known;
     double adjust_max;        /* largest |D_i| of the step just computed */
     double relative_gradient; /* of P; NAN when the method has none */
     double damping;           /* the loop's factor on the steps of interpolating methods: 1, halved where steps grow */
@@ -44,5 +47,7 @@ void pia_iterate_gradient(pia_iterate *iterate, double *gradient);
 /* Sum of products of x and y [cols x dim], in fixed order; and the largest Euclidean length of a row of x. */
 double pia_iterate_dot(const pia_iterate *iterate, const double *x, const double *y);
 double pia_iterate_longest(const pia_iterate *iterate, const double *x);
+/* x += y [cols x dim]. */
+void pia_iterate_add(const pia_iterate *iterate, double *x, const double *y);
 
 #endif

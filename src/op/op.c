@@ -134,7 +134,8 @@ pia_status pia_op_freeze(pia_op *op, pia_index unknown, int frozen)
 
 pia_errors pia_errors_join(pia_errors earlier, pia_errors later)
 {
-    if (later.max > earlier.max || earlier.max_row < 0) {
+    int tie = later.max == earlier.max && later.max_row >= 0 && later.max_row < earlier.max_row;
+    if (later.max > earlier.max || earlier.max_row < 0 || tie) {
         earlier.max = later.max;
         earlier.max_row = later.max_row;
     }

@@ -95,7 +95,7 @@ void pia_op_mask(const pia_op *op, double *x, int dim);
 pia_index pia_op_unknown(const pia_op *op, pia_index control);
 pia_status pia_op_freeze(pia_op *op, pia_index unknown, int frozen);
 
-/* Joins the errors of two sets of rows, `later` having the larger row numbers. */
+/* Joins the errors of two sets of rows. */
 pia_errors pia_errors_join(pia_errors earlier, pia_errors later);
 
 #endif

@@ -1,7 +1,9 @@
-/* A curve: banded rows, one block of degree + 1 basis values each, walked span by span so that a span's control points stay in
- * registers. Chunks of spans hold about the same number of rows and depend on the problem alone. */
+/* A curve: banded rows, one block of degree + 1 basis values each. Rows are taken as many at a time as a vector has lanes. Chunks of
+ * rows, of spans where columns are written, depend on the problem alone. */
+#include "op_curve.h"
+
 #include "kernel.h"
-#include "op.h"
+#include "lanes.h"
 #include "span_sums.h"
 
 #include <math.h>
@@ -29,57 +31,111 @@ static pia_index chunk_count(pia_index rows)
     return chunks < MAX_CHUNKS ? chunks : MAX_CHUNKS;
 }
 
-/* First span of a chunk: the first one whose rows begin at or after the chunk's share of rows. */
-static pia_index chunk_span(const pia_collocation *c, pia_index chunks, pia_index chunk)
+/* Neighbouring rows in the lanes; where only `count` are left, the last one stands in the others too. */
+typedef struct rows {
+    pia_index at[PIA_LANES], column[PIA_LANES];
+    int count;
+    pia_lanes value[PIA_MAX_DEGREE + 1];
+} rows;
+
+/* Lane by lane in so many words: no loop is left around the search for a span. Returns the span of the last row. */
+PIA_INLINE pia_index load_rows(const pia_collocation *c, pia_index row, int count, pia_index span, int degree, rows *out)
 {
-    pia_index low = 0, high = c->full - c->degree, row = pia_chunk_begin(c->rows, chunks, chunk);
-    if (chunk == chunks) return high;
-    while (low < high) {
-        pia_index middle = low + (high - low) / 2;
-        if (c->begin[middle] < row)
-            low = middle + 1;
-        else
-            high = middle;
+    out->count = count;
+    for (int l = 0; l < PIA_LANES; l++) out->at[l] = l < count ? row + l : row + count - 1;
+    pia_index first = pia_collocation_advance(c, out->at[0], span), second = pia_collocation_advance(c, out->at[1], first);
+    pia_index third = pia_collocation_advance(c, out->at[2], second), fourth = pia_collocation_advance(c, out->at[3], third);
+    out->column[0] = first - degree;
+    out->column[1] = second - degree;
+    out->column[2] = third - degree;
+    out->column[3] = fourth - degree;
+    pia_lanes_row(c, out->at, out->column, degree, out->value);
+    return fourth;
+}
+
+/* Component d of array [.. x dim] at these rows, or columns. */
+PIA_INLINE pia_lanes load(const double *array, const pia_index *at, int dim, int d)
+{
+    return (pia_lanes){array[at[0] * dim + d], array[at[1] * dim + d], array[at[2] * dim + d], array[at[3] * dim + d]};
+}
+
+/* Component d of the curve at these rows. */
+PIA_INLINE pia_lanes combine(const rows *r, const double *full, int degree, int dim, int d)
+{
+    pia_lanes sum = r->value[0] * load(full, r->column, dim, d);
+    for (int k = 1; k <= degree; k++) sum += r->value[k] * load(full + k * dim, r->column, dim, d);
+    return sum;
+}
+
+PIA_INLINE void store(const rows *r, pia_lanes value, int dim, int d, double *out)
+{
+    for (int l = 0; l < PIA_LANES; l++) out[r->at[l] * dim + d] = value[l];
+}
+
+PIA_INLINE void apply_rows(const pass *p, const rows *r, int degree, int dim)
+{
+    for (int d = 0; d < dim; d++) store(r, combine(r, p->full, degree, dim, d), dim, d, p->out);
+}
+
+PIA_INLINE void apply_chunk_of(const pass *p, pia_index chunk, int degree, int dim)
+{
+    const pia_collocation *c = p->line;
+    pia_index row = pia_chunk_begin(c->rows, p->chunks, chunk), to = pia_chunk_begin(c->rows, p->chunks, chunk + 1);
+    pia_index span = pia_collocation_span(c, row);
+    rows r;
+    for (; row + PIA_LANES <= to; row += PIA_LANES) {
+        span = load_rows(c, row, PIA_LANES, span, degree, &r);
+        apply_rows(p, &r, degree, dim);
     }
-    return low;
+    if (row < to) {
+        load_rows(c, row, (int)(to - row), span, degree, &r);
+        apply_rows(p, &r, degree, dim);
+    }
 }
 
-static inline __attribute__((always_inline)) void combine(const double *value, const double *control, int degree, int dim, double *sum)
+PIA_INLINE void count_square(const double *weights, const rows *r, pia_lanes square, pia_run_errors *e)
 {
-    for (int d = 0; d < dim; d++) sum[d] = value[0] * control[d];
-    for (int k = 1; k <= degree; k++)
-        for (int d = 0; d < dim; d++) sum[d] += value[k] * control[k * dim + d];
-}
-
-static inline __attribute__((always_inline)) void apply_spans(const pass *p, pia_index chunk, int degree, int dim)
-{
-    const pia_collocation *c = p->line;
-    pia_index from = chunk_span(c, p->chunks, chunk), to = chunk_span(c, p->chunks, chunk + 1);
-    double scratch[PIA_MAX_DEGREE + 1];
-    for (pia_index s = from; s < to; s++)
-        for (pia_index row = c->begin[s]; row < c->begin[s + 1]; row++)
-            combine(pia_collocation_row(c, row, degree + s, scratch), p->full + s * dim, degree, dim, p->out + row * dim);
-}
-
-static inline __attribute__((always_inline)) void plain_residual(const pass *p, pia_index s, int degree, int dim, pia_run_errors *e)
-{
-    const pia_collocation *c = p->line;
-    double scratch[PIA_MAX_DEGREE + 1], sum[PIA_MAX_DIM];
-    for (pia_index row = c->begin[s]; row < c->begin[s + 1]; row++) {
-        const double *target = p->targets->points + row * dim;
-        combine(pia_collocation_row(c, row, degree + s, scratch), p->full + s * dim, degree, dim, sum);
-        double square = 0;
-        for (int d = 0; d < dim; d++) {
-            double difference = target[d] - p->targets->origin[d] - sum[d];
-            square += difference * difference;
-            if (p->out != NULL) p->out[row * dim + d] = p->base != NULL ? p->base[row * dim + d] + p->factor * difference : difference;
+    for (int l = 0; l < r->count; l++) {
+        e->sum_squares += square[l];
+        e->weighted += weights != NULL ? weights[r->at[l]] * square[l] : square[l];
+        if (square[l] > e->worst) {
+            e->worst = square[l];
+            e->index = r->at[l];
         }
-        e->sum_squares += square;
-        e->weighted += p->weights != NULL ? p->weights[row] * square : square;
-        if (square > e->worst) {
-            e->worst = square;
-            e->index = row;
-        }
+    }
+}
+
+/* What is written: nothing, the differences, or base + factor * differences. */
+typedef enum output { NOTHING, DIFFERENCES, MOVED } output;
+
+PIA_INLINE void residual_rows(const pass *p, const rows *r, output kind, int degree, int dim, pia_run_errors *e)
+{
+    pia_lanes square = {0}, difference[PIA_MAX_DIM];
+    for (int d = 0; d < dim; d++) difference[d] = load(p->targets->points, r->at, dim, d) - p->targets->origin[d];
+    for (int d = 0; d < dim; d++) difference[d] -= combine(r, p->full, degree, dim, d);
+    for (int d = 0; d < dim; d++) square += difference[d] * difference[d];
+    for (int d = 0; d < dim && kind == MOVED; d++) difference[d] = load(p->base, r->at, dim, d) + p->factor * difference[d];
+    for (int d = 0; d < dim && kind != NOTHING; d++) store(r, difference[d], dim, d, p->out);
+    count_square(p->weights, r, square, e);
+}
+
+PIA_INLINE void residual_range(const pass *given, pia_index row, pia_index to, output kind, int degree, int dim, pia_run_errors *e)
+{
+    if (row >= to) return;
+    /* Copies, because what is written could overlap the originals as far as the compiler knows. */
+    const pia_collocation line = *given->line, *c = &line;
+    const pia_targets targets = *given->targets;
+    pass copy = *given, *p = &copy;
+    copy.targets = &targets;
+    pia_index span = pia_collocation_span(c, row);
+    rows r;
+    for (; row + PIA_LANES <= to; row += PIA_LANES) {
+        span = load_rows(c, row, PIA_LANES, span, degree, &r);
+        residual_rows(p, &r, kind, degree, dim, e);
+    }
+    if (row < to) {
+        load_rows(c, row, (int)(to - row), span, degree, &r);
+        residual_rows(p, &r, kind, degree, dim, e);
     }
 }
 
@@ -97,39 +153,64 @@ static void polynomial_residual(const pass *p, pia_index s, pia_run_errors *e)
     pia_run_residual(&run, curve, first, p->out != NULL ? p->out + first * p->dim : NULL, e);
 }
 
-static inline __attribute__((always_inline)) void residual_spans(const pass *p, pia_index chunk, int degree, int dim)
+/* First column of a chunk: that of the first span whose rows begin at or after the chunk's share of rows. */
+static pia_index chunk_column(const pia_collocation *c, pia_index chunks, pia_index chunk)
 {
-    const pia_collocation *c = p->line;
-    pia_index from = chunk_span(c, p->chunks, chunk), to = chunk_span(c, p->chunks, chunk + 1);
-    pia_run_errors e = {0, 0, -1, -1};
-    for (pia_index s = from; s < to; s++)
-        if (p->base == NULL && pia_span_is_full(c, s))
-            polynomial_residual(p, s, &e);
-        else
-            plain_residual(p, s, degree, dim, &e);
-    p->errors[chunk] = (pia_errors){.max = e.worst > 0 ? sqrt(e.worst) : 0,
-                                    .max_row = e.index,
-                                    .sum_squares = e.sum_squares,
-                                    .weighted = e.weighted,
-                                    .count = c->begin[to] - c->begin[from]};
+    pia_index row = pia_chunk_begin(c->rows, chunks, chunk);
+    if (chunk == chunks) return c->full - c->degree;
+    return row > 0 ? pia_collocation_span(c, row - 1) + 1 - c->degree : 0;
 }
 
-static inline __attribute__((always_inline)) void gather_spans(const pass *p, pia_index chunk, int degree, int dim)
+/* Rows of the spans from .. to - 1, which some may have many of. */
+PIA_INLINE void residual_spans(const pass *p, pia_index from, pia_index to, output kind, int degree, int dim, pia_run_errors *e)
 {
     const pia_collocation *c = p->line;
-    pia_index from = chunk_span(c, p->chunks, chunk), to = chunk_span(c, p->chunks, chunk + 1);
+    for (pia_index s = from, next; s < to; s = next) {
+        for (next = s; next < to && !pia_span_is_full(c, next);) next++;
+        residual_range(p, c->begin[s], c->begin[next], kind, degree, dim, e);
+        if (next < to) polynomial_residual(p, next++, e);
+    }
+}
+
+static pia_errors errors_of(const pia_run_errors *e, pia_index count)
+{
+    return (pia_errors){e->worst > 0 ? sqrt(e->worst) : 0, e->index, e->sum_squares, e->weighted, count};
+}
+
+/* Operators that step have a row a span; others tell which rows a span has. */
+PIA_INLINE void residual_chunk_of(const pass *p, pia_index chunk, int degree, int dim)
+{
+    const pia_collocation *c = p->line;
+    pia_index from = chunk_column(c, p->chunks, chunk), to = chunk_column(c, p->chunks, chunk + 1);
+    pia_index first = pia_collocation_begin(c, from + degree), last = pia_collocation_begin(c, to + degree);
+    pia_run_errors e = {0, 0, -1, -1};
+    if (p->base != NULL)
+        residual_range(p, first, last, MOVED, degree, dim, &e);
+    else if (c->begin != NULL)
+        residual_spans(p, from, to, p->out != NULL ? DIFFERENCES : NOTHING, degree, dim, &e);
+    else
+        residual_range(p, first, last, p->out != NULL ? DIFFERENCES : NOTHING, degree, dim, &e);
+    p->errors[chunk] = errors_of(&e, last - first);
+}
+
+PIA_INLINE void gather_chunk_of(const pass *p, pia_index chunk, int degree, int dim)
+{
+    const pia_collocation *c = p->line;
+    pia_index from = chunk_column(c, p->chunks, chunk), to = chunk_column(c, p->chunks, chunk + 1), span = from + degree;
+    pia_index end = pia_collocation_begin(c, to + degree);
     double scratch[PIA_MAX_DEGREE + 1], *tail = p->tail + chunk * degree * dim;
     memset(p->out + from * dim, 0, (size_t)((to - from) * dim) * sizeof *p->out);
     memset(tail, 0, (size_t)(degree * dim) * sizeof *tail);
-    for (pia_index s = from; s < to; s++)
-        for (pia_index row = c->begin[s]; row < c->begin[s + 1]; row++) {
-            const double *value = pia_collocation_row(c, row, degree + s, scratch);
-            double w = p->weights != NULL ? p->weights[row] : 1;
-            for (int k = 0; k <= degree; k++) {
-                double *to_column = s + k < to ? p->out + (s + k) * dim : tail + (s + k - to) * dim;
-                for (int d = 0; d < dim; d++) to_column[d] += w * value[k] * p->in[row * dim + d];
-            }
+    for (pia_index row = pia_collocation_begin(c, span); row < end; row++) {
+        span = pia_collocation_advance(c, row, span);
+        const double *value = pia_collocation_row(c, row, span, scratch);
+        pia_index column = span - degree;
+        double w = p->weights != NULL ? p->weights[row] : 1;
+        for (int k = 0; k <= degree; k++) {
+            double *to_column = column + k < to ? p->out + (column + k) * dim : tail + (column + k - to) * dim;
+            for (int d = 0; d < dim; d++) to_column[d] += w * value[k] * p->in[row * dim + d];
         }
+    }
 }
 
 /* The cubic in up to three dimensions is what nearly everybody fits: those loops are unrolled by giving the compiler the counts. */
@@ -146,22 +227,22 @@ static inline __attribute__((always_inline)) void gather_spans(const pass *p, pi
             body(p, chunk, degree_, dim_);                                                                                             \
     } while (0)
 
-static void apply_chunk(void *work, pia_index chunk)
+PIA_CLONES static void apply_chunk(void *work, pia_index chunk)
 {
     const pass *p = work;
-    PIA_UNROLL(apply_spans, p, chunk);
+    PIA_UNROLL(apply_chunk_of, p, chunk);
 }
 
-static void residual_chunk(void *work, pia_index chunk)
+PIA_CLONES static void residual_chunk(void *work, pia_index chunk)
 {
     const pass *p = work;
-    PIA_UNROLL(residual_spans, p, chunk);
+    PIA_UNROLL(residual_chunk_of, p, chunk);
 }
 
 static void gather_chunk(void *work, pia_index chunk)
 {
     const pass *p = work;
-    PIA_UNROLL(gather_spans, p, chunk);
+    PIA_UNROLL(gather_chunk_of, p, chunk);
 }
 
 static pass pass_over(const pia_op *op, int dim)
@@ -207,9 +288,19 @@ static void gather(const pia_op *op, const double *values, const double *weights
     int degree = p.line->degree;
     memset(full + (op->fulls - degree) * dim, 0, (size_t)(degree * dim) * sizeof *full);
     for (pia_index chunk = 0; chunk < p.chunks; chunk++) {
-        double *to = full + chunk_span(p.line, p.chunks, chunk + 1) * dim;
+        double *to = full + chunk_column(p.line, p.chunks, chunk + 1) * dim;
         for (int k = 0; k < degree * dim; k++) to[k] += p.tail[chunk * degree * dim + k];
     }
+}
+
+pia_errors pia_op_curve_errors(const pia_op *op, const double *full, const pia_targets *targets, pia_index from, pia_index to)
+{
+    pass p = pass_over(op, targets->dim);
+    p.full = full;
+    p.targets = targets;
+    pia_run_errors e = {0, 0, -1, -1};
+    residual_range(&p, from, to, NOTHING, p.line->degree, p.dim, &e);
+    return errors_of(&e, to - from);
 }
 
 static const pia_op_class curve = {"curve", apply, gather, residual, NULL};

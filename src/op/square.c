@@ -36,11 +36,12 @@ static pia_status equations_open(pia_context *context, const pia_collocation *c,
         equations_clear(context, &e);
         return PIA_E_MEMORY;
     }
-    for (pia_index s = 0; s < c->full - c->degree; s++)
-        for (pia_index row = c->begin[s]; row < c->begin[s + 1]; row++) {
-            if (!pia_collocation_entries(c, row, c->degree + s, &e.first[row], e.entry + row * e.width)) e.wraps = 1;
-            if (frozen != NULL && frozen[row]) freeze_equation(&e, row);
-        }
+    pia_index span = c->degree;
+    for (pia_index row = 0; row < c->rows; row++) {
+        span = pia_collocation_advance(c, row, span);
+        if (!pia_collocation_entries(c, row, span, &e.first[row], e.entry + row * e.width)) e.wraps = 1;
+        if (frozen != NULL && frozen[row]) freeze_equation(&e, row);
+    }
     *out = e;
     return PIA_OK;
 }
@@ -133,7 +134,7 @@ static void make_rows(void *work, pia_index begin, pia_index end, pia_index *fir
     int width = c->degree + 1;
     pia_index span = pia_collocation_span(c, begin);
     for (pia_index row = begin; row < end; row++) {
-        while (row >= c->begin[span - c->degree + 1]) span++;
+        span = pia_collocation_advance(c, row, span);
         double *entry = a + (row - begin) * width;
         pia_collocation_entries(c, row, span, &first[row - begin], entry);
         if (s->frozen != NULL && s->frozen[row])

@@ -131,21 +131,6 @@ static pia_status note_errors(pia_solve *solve)
     return every > 0 && iterate->iteration % every == 0 ? pia_solve_trace(solve) : PIA_OK;
 }
 
-/* Keeps an iterate to return to; copies only where the error has halved since the last copy. */
-static pia_status keep_safe(pia_solve *solve)
-{
-    pia_iterate *iterate = solve->iterate;
-    size_t size = (size_t)(iterate->op->cols * iterate->dim) * sizeof(double);
-    if (solve->safe == NULL) {
-        solve->safe = pia_take(iterate->context, iterate->op->cols * iterate->dim, sizeof(double));
-        if (solve->safe == NULL) return PIA_E_MEMORY;
-    }
-    if (!(solve->safe_error > 2 * iterate->errors.max)) return PIA_OK;
-    memcpy(solve->safe, iterate->points, size);
-    solve->safe_error = iterate->errors.max;
-    return PIA_OK;
-}
-
 /* True when the current iterate had to be taken back and the damping was halved. */
 static int take_back(pia_solve *solve)
 {
@@ -159,28 +144,35 @@ static int take_back(pia_solve *solve)
     return 1;
 }
 
-static void add_chunk(void *work, pia_index chunk)
+static double *exchange(double **pointer, double *value)
 {
-    pia_iterate *iterate = work;
-    pia_index count = iterate->op->cols * iterate->dim, chunks = pia_chunk_count(count, 65536);
-    for (pia_index i = pia_chunk_begin(count, chunks, chunk); i < pia_chunk_begin(count, chunks, chunk + 1); i++)
-        iterate->points[i] += iterate->adjust[i];
+    double *before = *pointer;
+    *pointer = value;
+    return before;
 }
 
-static pia_status update(pia_solve *solve, int fused)
+/* From P to the next one; keep: P stays as the iterate to return to. After a fused step no number is moved. */
+static pia_status update(pia_solve *solve, int fused, int keep)
 {
     pia_iterate *iterate = solve->iterate;
+    if (keep) {
+        if (solve->safe == NULL) solve->safe = pia_take(iterate->context, iterate->op->cols * iterate->dim, sizeof(double));
+        if (solve->safe == NULL) return PIA_E_MEMORY;
+        solve->safe_error = iterate->errors.max;
+    }
+    if (keep && !fused) pia_copy(iterate->context, solve->safe, iterate->points, iterate->op->cols * iterate->dim);
     if (fused) {
-        double *next = iterate->adjust;
-        iterate->adjust = iterate->points;
-        iterate->points = next;
+        double *before = exchange(&iterate->points, iterate->adjust);
+        iterate->adjust = keep ? exchange(&solve->safe, before) : before;
     } else if (solve->method->update != NULL) {
         pia_status status = solve->method->update(iterate, solve->method_state);
         if (status != PIA_OK) return status;
     } else {
-        pia_for_each(iterate->context, pia_chunk_count(iterate->op->cols * iterate->dim, 65536), add_chunk, iterate);
+        pia_iterate_add(iterate, iterate->points, iterate->adjust);
     }
-    iterate->errors_known = 0;
+    if (iterate->next_errors_known) iterate->errors = iterate->next_errors;
+    iterate->errors_known = iterate->next_errors_known;
+    iterate->next_errors_known = 0;
     iterate->iteration++;
     return PIA_OK;
 }
@@ -222,14 +214,14 @@ static pia_status iterate_once(pia_solve *solve)
         if (rows && take_back(solve)) return PIA_OK;
         status = note_errors(solve);
     }
-    if (status == PIA_OK && rows) status = keep_safe(solve);
     if (status == PIA_OK) status = pia_unmet_watch(solve);
     if (status == PIA_OK && solve->stop == PIA_STOP_NONE) solve->stop = pia_stop_after(solve);
     if (solve->stop != PIA_STOP_NONE) {
         iterate->adjust_max = last_change;
         return status;
     }
-    if (status == PIA_OK) status = update(solve, fused);
+    int keep = rows && solve->safe_error > 2 * iterate->errors.max; /* only where the error has halved since the last one kept */
+    if (status == PIA_OK) status = update(solve, fused, keep);
     return status == PIA_OK && solve->revise != NULL ? solve->revise(iterate) : status;
 }
 

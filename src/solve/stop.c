@@ -35,6 +35,7 @@ pia_stop pia_stop_after(const pia_solve *solve)
     if (rules->gradient > 0 && iterate->relative_gradient <= rules->gradient) return PIA_STOP_GRADIENT;
     if (iterate->stalled) return PIA_STOP_STALLED;
     if (rules->change > 0 && is_stuck(solve)) return PIA_STOP_STALLED;
-    if (rules->change > 0 && iterate->adjust_max <= rules->change) return PIA_STOP_CHANGE;
+    int finite = (solve->method->needs & PIA_IS_FINITE) != 0; /* ends by itself */
+    if (rules->change > 0 && !finite && iterate->adjust_max <= rules->change) return PIA_STOP_CHANGE;
     return PIA_STOP_NONE;
 }

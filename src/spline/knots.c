@@ -1,5 +1,7 @@
 #include "knots.h"
 
+#include "kernel.h"
+
 #include <float.h>
 #include <math.h>
 
@@ -49,10 +51,38 @@ static pia_status check_multiplicities(pia_context *context, int degree, const d
     return PIA_OK;
 }
 
+typedef struct inner_knots {
+    const double *knots; /* without the first one */
+    int degree;
+} inner_knots;
+
+/* What the checks above ask of a knot, the next one and the one `degree` further on. */
+static int are_in_order(const void *data, pia_index from, pia_index to)
+{
+    const inner_knots *inner = data;
+    int all = 1;
+    for (pia_index i = from; i < to; i++) {
+        double gap = inner->knots[i + 1] - inner->knots[i];
+        all &= ((gap == 0) | (gap >= DBL_MIN)) & (inner->knots[i] < inner->knots[i + inner->degree]);
+    }
+    return all;
+}
+
+/* Found side by side; where the knots are not plainly good, the checks above find out why. */
+static int are_good(pia_context *context, int degree, const double *knots, pia_index control)
+{
+    inner_knots inner = {knots + 1, degree};
+    double length = knots[control] - knots[0];
+    for (int k = 0; k < degree; k++)
+        if (knots[k] != knots[k + 1] || knots[control + k] != knots[control + k + 1]) return 0;
+    return isfinite(length) && pia_all(context, control - 1, are_in_order, &inner);
+}
+
 pia_status pia_knots_check(pia_context *context, int degree, const double *knots, pia_index count, pia_index control)
 {
     pia_status status = check_counts(context, degree, count, control);
-    if (status == PIA_OK) status = check_order(context, knots, count);
+    if (status != PIA_OK || are_good(context, degree, knots, control)) return status;
+    status = check_order(context, knots, count);
     if (status == PIA_OK) status = check_multiplicities(context, degree, knots, control);
     return status;
 }

@@ -31,15 +31,15 @@ static pia_status take_arrays(pia_context *context, pia_model *model)
                         (long long)model->control[1]);
     for (int d = 0; d < model->directions; d++) {
         pia_index knots = model->control[d] + model->degree[d] + 1;
-        model->knots[d] = pia_take(context, knots, sizeof *model->knots[d]);
+        if (model->knots[d] == NULL) model->knots[d] = pia_take(context, knots, sizeof *model->knots[d]);
         if (model->knots[d] == NULL) return pia_take_status(context, knots, sizeof *model->knots[d]);
     }
-    model->points = pia_take(context, count, sizeof *model->points);
+    if (model->points == NULL) model->points = pia_take(context, count, sizeof *model->points);
     return model->points != NULL ? PIA_OK : pia_take_status(context, count, sizeof *model->points);
 }
 
-pia_status pia_model_new(pia_context *context, int directions, const int *degree, const pia_index *control, int dim, int rational,
-                         pia_model **out)
+pia_status pia_model_adopt(pia_context *context, int directions, const int *degree, const pia_index *control, int dim, int rational,
+                           double **knots, double **points, pia_model **out)
 {
     pia_status status = check_shape(context, directions, degree, control, dim);
     if (status != PIA_OK) return status;
@@ -50,13 +50,26 @@ pia_status pia_model_new(pia_context *context, int directions, const int *degree
                          .dim = dim,
                          .rational = rational != 0,
                          .degree = {degree[0], directions > 1 ? degree[1] : 0},
-                         .control = {control[0], directions > 1 ? control[1] : 1}};
+                         .control = {control[0], directions > 1 ? control[1] : 1},
+                         .points = *points};
+    for (int d = 0; d < directions; d++) {
+        model->knots[d] = knots[d];
+        knots[d] = NULL;
+    }
+    *points = NULL;
     status = take_arrays(context, model);
     if (status == PIA_OK)
         *out = model;
     else
         pia_model_destroy(model);
     return status;
+}
+
+pia_status pia_model_new(pia_context *context, int directions, const int *degree, const pia_index *control, int dim, int rational,
+                         pia_model **out)
+{
+    double *knots[2] = {NULL, NULL}, *points = NULL;
+    return pia_model_adopt(context, directions, degree, control, dim, rational, knots, &points, out);
 }
 
 static pia_status check_points(pia_context *context, const double *points, const double *weights, pia_index count, int dim)

@@ -24,6 +24,12 @@ struct pia_model {
 pia_status pia_model_new(pia_context *context, int directions, const int *degree, const pia_index *control, int dim, int rational,
                          pia_model **out);
 
+/* The same from arrays of the context's allocator where they are not NULL: knots[d] [control + degree + 1], *points [control[0] x
+ * control[1] x (dim + rational)]. The model owns them, and the pointers are NULL, unless the shape is refused or there is no memory for
+ * the model itself. */
+pia_status pia_model_adopt(pia_context *context, int directions, const int *degree, const pia_index *control, int dim, int rational,
+                           double **knots, double **points, pia_model **out);
+
 /* Components of a stored control point: dim, or dim + 1 when rational. */
 int pia_model_width(const pia_model *model);
 

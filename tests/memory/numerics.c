@@ -4,6 +4,7 @@
 #include "failing.h"
 #include "param.h"
 #include "place.h"
+#include "windows.h"
 
 static const double points[] = {0, 0, 0, 1, 0, 0, 2, 1, 0, 0, 1, 1, 1, 1, 0, 2, 2, 0, 0, 2, 0, 1, 2, 1, 2, 2, 2};
 
@@ -61,6 +62,28 @@ static pia_status solve_bands(pia_context *context, void *user)
     return PIA_OK;
 }
 
+/* The parameters of a curve of degree 1 are its inside knots. */
+enum { LONG = 8192 };
+
+static pia_status interpolate_long_curve(pia_context *context, void *user)
+{
+    double *knots = user, *x = knots + LONG + 2, origin = 0;
+    pia_collocation line;
+    pia_targets targets = {knots + 1, &origin, 1};
+    pia_step_errors errors;
+    pia_op *op;
+    int done;
+    pia_status status = pia_collocation_open(context, 1, PIA_MAP_IDENTITY, 0, knots, LONG, knots + 1, LONG, PIA_WITHOUT_BEGINS, &line);
+    if (status != PIA_OK) return status;
+    status = pia_op_curve_open(context, &line, NULL, 1, &op);
+    if (status == PIA_OK) {
+        status = pia_windows_step(op, NULL, &targets, x, &errors, &done);
+        pia_op_close(op);
+    }
+    pia_collocation_close(context, &line);
+    return status;
+}
+
 static pia_status summarize(pia_context *context, void *user)
 {
     double distances[] = {3, 1, 2};
@@ -88,6 +111,16 @@ static void band_solvers_survive_every_failure(void **state)
     assert_survives_failures(solve_bands, NULL);
 }
 
+static void long_curves_survive_every_failure(void **state)
+{
+    (void)state;
+    double *knots = malloc((2 * LONG + 2) * sizeof *knots);
+    assert_non_null(knots);
+    for (int i = 0; i < LONG + 2; i++) knots[i] = i < 1 ? 0 : i > LONG ? LONG - 1 : i - 1;
+    assert_survives_failures(interpolate_long_curve, knots);
+    free(knots);
+}
+
 static void statistics_survive_every_failure(void **state)
 {
     (void)state;
@@ -97,9 +130,8 @@ static void statistics_survive_every_failure(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(parametrizations_survive_every_failure),
-        cmocka_unit_test(placements_survive_every_failure),
-        cmocka_unit_test(band_solvers_survive_every_failure),
+        cmocka_unit_test(parametrizations_survive_every_failure), cmocka_unit_test(placements_survive_every_failure),
+        cmocka_unit_test(band_solvers_survive_every_failure),     cmocka_unit_test(long_curves_survive_every_failure),
         cmocka_unit_test(statistics_survive_every_failure),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

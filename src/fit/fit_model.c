@@ -1,0 +1,144 @@
+/* The model of the current iterate, and what it remembers of the fit. */
+#include "fit.h"
+
+#include "kernel.h"
+#include "knots.h"
+#include "model.h"
+
+enum { GRAIN = 16384, MOST_KEPT = 1000000 };
+
+typedef struct controls {
+    const pia_fit *fit;
+    pia_index chunks;
+    double *out;
+} controls;
+
+static inline __attribute__((always_inline)) void move_back(const controls *c, pia_index from, pia_index to, int dim)
+{
+    const double *x = c->fit->iterate.points, *origin = c->fit->origin;
+    for (pia_index i = from; i < to; i++)
+        for (int d = 0; d < dim; d++) c->out[i * dim + d] = x[i * dim + d] + origin[d];
+}
+
+static void move_back_copies(const controls *c, pia_index from, pia_index to)
+{
+    const pia_fit *fit = c->fit;
+    int dim = fit->dim, graph = fit->function_graph, wide = dim + graph;
+    for (pia_index i = from; i < to; i++) {
+        const double *x = fit->iterate.points + pia_op_unknown(fit->op, i) * dim;
+        if (graph) c->out[i * wide] = pia_knots_greville(fit->knots[0], fit->degree[0], i);
+        for (int d = 0; d < dim; d++) c->out[i * wide + graph + d] = x[d] + fit->origin[d];
+    }
+}
+
+/* Whether the iterate is all that the model needs: no copies of control points, no abscissas. */
+static int is_plain(const pia_fit *fit)
+{
+    return fit->op->identity && !fit->function_graph;
+}
+
+static void fill_chunk(void *work, pia_index chunk)
+{
+    const controls *c = work;
+    pia_index count = c->fit->op->fulls;
+    pia_index from = pia_chunk_begin(count, c->chunks, chunk), to = pia_chunk_begin(count, c->chunks, chunk + 1);
+    if (!is_plain(c->fit))
+        move_back_copies(c, from, to);
+    else if (c->fit->dim == 3)
+        move_back(c, from, to, 3);
+    else
+        move_back(c, from, to, c->fit->dim);
+}
+
+/* Control points of the model [fulls x (dim + graph)]: the iterate moved back from the origin; a function graph's abscissas are the
+ * Greville line, which makes x the identity. A plain iterate may be moved in place. */
+static void fill_control(const pia_fit *fit, double *out)
+{
+    controls c = {fit, pia_chunk_count(fit->op->fulls, GRAIN), out};
+    pia_for_each(fit->context, c.chunks, fill_chunk, &c);
+}
+
+static pia_status make_clamped(pia_fit *fit, pia_model **out)
+{
+    pia_status status = pia_model_new(fit->context, fit->directions, fit->degree, fit->full, fit->dim + fit->function_graph, 0, out);
+    if (status != PIA_OK) return status;
+    for (int d = 0; d < fit->directions; d++)
+        pia_copy(fit->context, (*out)->knots[d], fit->knots[d], fit->full[d] + fit->degree[d] + 1);
+    fill_control(fit, (*out)->points);
+    return PIA_OK;
+}
+
+static pia_status make_closed(pia_fit *fit, pia_model **out)
+{
+    int wide = fit->dim + fit->function_graph;
+    double *points = pia_take(fit->context, fit->op->fulls * wide, sizeof *points);
+    if (points == NULL) return PIA_E_MEMORY;
+    fill_control(fit, points);
+    pia_status status = pia_model_from_cyclic(fit->context, fit->directions, fit->degree, (const double *const *)fit->knots, fit->full,
+                                              fit->closed, wide, points, out);
+    pia_give(fit->context, points);
+    return status;
+}
+
+static int is_closed(const pia_fit *fit)
+{
+    return fit->closed[0] || (fit->directions == 2 && fit->closed[1]);
+}
+
+pia_status pia_fit_bare_model(pia_fit *fit, pia_model **out)
+{
+    return is_closed(fit) ? make_closed(fit, out) : make_clamped(fit, out);
+}
+
+/* Parameters are kept with the model where they cannot be computed again from the points, given and corrected ones, unless they are so
+ * many that a copy would weigh on memory. */
+static pia_status attach_summary(pia_fit *fit, const pia_report *report, pia_model *model)
+{
+    const pia_memory *memory = pia_memory_of(fit->context);
+    pia_summary summary = {.report = *report, .notes = fit->notes, .dropped = fit->dropped, .dropped_count = fit->dropped_count};
+    const double *parameters;
+    pia_index count;
+    pia_status status = pia_fit_parameters(fit, &parameters, &count, NULL);
+    if (status != PIA_OK) return status;
+    if ((fit->parametrization == NULL || fit->parameters_moved) && count <= MOST_KEPT) {
+        summary.parameters = (double *)(uintptr_t)parameters; /* only to be copied */
+        summary.parameter_count = count;
+    }
+    model->summary = pia_summary_copy(memory, &summary);
+    if (model->summary == NULL) return pia_fail(fit->context, PIA_E_MEMORY, "out of memory for the summary of the fit");
+    pia_notes_copy(memory, &model->summary->notes, &fit->outcome);
+    return PIA_OK;
+}
+
+/* The iterate and the knots become the model's own. */
+static pia_status give_model(pia_fit *fit, pia_model **out)
+{
+    if (is_closed(fit) || !is_plain(fit)) return pia_fit_bare_model(fit, out);
+    fill_control(fit, fit->iterate.points);
+    return pia_model_adopt(fit->context, fit->directions, fit->degree, fit->full, fit->dim, 0, fit->knots, &fit->iterate.points, out);
+}
+
+static pia_status model_of(pia_fit *fit, pia_status (*make)(pia_fit *fit, pia_model **out), pia_model **out)
+{
+    pia_model *model = NULL;
+    pia_report report = {.struct_size = sizeof report};
+    pia_fit_conclude(fit);
+    pia_status status = pia_fit_report(fit, &report);
+    if (status == PIA_OK) status = make(fit, &model);
+    if (status == PIA_OK) status = attach_summary(fit, &report, model);
+    if (status == PIA_OK)
+        *out = model;
+    else
+        pia_model_destroy(model);
+    return status;
+}
+
+pia_status pia_fit_model(pia_fit *fit, pia_model **out)
+{
+    return out != NULL ? model_of(fit, pia_fit_bare_model, out) : pia_fail(fit->context, PIA_E_ARGUMENT, "out is NULL");
+}
+
+pia_status pia_fit_turn_into_model(pia_fit *fit, pia_model **out)
+{
+    return model_of(fit, give_model, out);
+}
