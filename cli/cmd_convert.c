@@ -8,7 +8,7 @@
 #include "number_file.h"
 
 /* What may be done to a model, in the order in which the command line asks for it. */
-enum step_kind { REFINE, INSERT, ELEVATE, REMOVE, SPLIT, BEZIER };
+enum step_kind { REFINE, INSERT, ELEVATE, REMOVE, SPLIT, BEZIER, UNTRIM };
 
 struct step {
     enum step_kind kind;
@@ -33,6 +33,7 @@ enum {
     KEY_REMOVE,
     KEY_SPLIT,
     KEY_BEZIER,
+    KEY_UNTRIM,
     KEY_SAMPLES,
     KEY_PART,
     KEY_FORMAT,
@@ -46,6 +47,7 @@ static const struct argp_option options[] = {
     {"elevate", KEY_ELEVATE, "[D:]K", 0, "degree raised by K; a surface without D: in both directions", 0},
     {"remove", KEY_REMOVE, "BOUND", 0, "knots removed as long as no point moves by more than BOUND", 0},
     {"split", KEY_SPLIT, "[D:]T", 0, "split at the parameter T; both halves are written", 0},
+    {"untrim", KEY_UNTRIM, NULL, 0, "trim loops taken away: the whole surface", 0},
     {"bezier", KEY_BEZIER, NULL, 0, "inside knots raised to full multiplicity: Bezier pieces", 0},
     {NULL, 0, NULL, 0, "Files:", 20},
     {"output", 'o', "FILE", 0, "file to write; repeat for several; - is stdout", 0},
@@ -84,6 +86,7 @@ static error_t parse(int key, char *arg, struct argp_state *state)
     case KEY_REMOVE: return add_step(request, REMOVE, "--remove", arg);
     case KEY_SPLIT: return add_step(request, SPLIT, "--split", arg);
     case KEY_BEZIER: return add_step(request, BEZIER, "--bezier", "");
+    case KEY_UNTRIM: return add_step(request, UNTRIM, "--untrim", "");
     case ARGP_KEY_INIT: state->child_inputs[0] = request->session; return 0;
     case ARGP_KEY_ARG:
         if (request->model) return usage_error("one model at a time; '%s' is one too many", arg);
@@ -197,6 +200,7 @@ static int apply(struct session *session, const struct step *step, const pia_mod
     case INSERT: return insert(session, text, given, model, &out[0]);
     case SPLIT: return split(session, step, text, given, model, out);
     case BEZIER: return session_check(session, pia_model_bezier(session->context, model, &out[0]), NULL);
+    case UNTRIM: return session_check(session, pia_model_trim(session->context, model, 0, NULL, NULL, &out[0]), NULL);
     case REMOVE: break;
     }
     if (!text_is_number(text, &bound) || bound < 0)

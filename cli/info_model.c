@@ -52,6 +52,8 @@ static void print_text(const pia_model *model, const struct figures *figures)
     printf("points       %d components%s\n", info->dim, info->rational ? ", rational" : "");
     for (int k = 0; k < info->dim; k++)
         printf("%-12s %d: %.10g to %.10g\n", k ? "" : "bounds", k + 1, figures->low[k], figures->high[k]);
+    pia_index loops = pia_model_trim_loop_count(model);
+    if (loops > 0) printf("trimmed      to one face with %lld holes\n", (long long)loops - 1);
     if (info->directions == 1) printf("length       %.12g\n", figures->length);
     if (figures->fitted) print_report(&figures->report);
     const char *note;
@@ -99,6 +101,7 @@ static void put_model(struct json_writer *json, const pia_model *model, const st
     json_numbers(json, "low", figures->low, info->dim);
     json_numbers(json, "high", figures->high, info->dim);
     if (info->directions == 1) json_number(json, "length", figures->length);
+    if (info->directions == 2) json_count(json, "trim_loops", pia_model_trim_loop_count(model));
     if (figures->fitted) put_report(json, &figures->report);
     json_open(json, "notes", '[');
     const char *note;

@@ -271,8 +271,9 @@ pia_status pia_fit_parameters(pia_fit *fit, const double **parameters, pia_index
 /* Factors in [0, 1] that the robust loss gave the rows used, in their order: 1 is a row fully trusted, below 0.5 an outlier. `row`
  * (NULL allowed) as above; arrays borrowed until the next step or edit. NULL and 0 without a robust loss. */
 pia_status pia_fit_weights(pia_fit *fit, const double **weights, const pia_index **row, pia_index *count);
-/* Control points that the data do not hold: no parameter of their own (Schoenberg-Whitney), or all basis values below 1e-3. Row-major over
- * the control points that the report counts; borrowed until the next edit. They stay near the start; fairing bridges them instead. */
+/* Control points that the data do not hold: no parameter of their own (Schoenberg-Whitney), or all basis values below 1e-3. Row-major
+ * over the control points that the report counts; borrowed until the next edit. They stay near the start; fairing bridges them instead.
+ */
 pia_status pia_fit_unsupported(pia_fit *fit, const pia_index **control, pia_index *count);
 /* Row `index` of the trace; returns 0 past the end. */
 int pia_fit_trace(const pia_fit *fit, pia_index index, pia_trace_row *out);
@@ -337,6 +338,23 @@ const char *pia_model_note(const pia_model *model, pia_index index);
 /* Parameters of the data the model was fitted to, where it carries them: as in pia_fit_parameters; NULL and 0 otherwise. */
 const double *pia_model_parameters(const pia_model *model, pia_index *count);
 
+/* The same surface, trimmed: the face that lies inside loop 0 and outside the other loops, closed polylines in the parameter plane.
+ * vertex_counts: [loop_count], at least 3 each; uv: [sum of vertex_counts x 2], loop after loop, inside the domain. The last vertex
+ * joins the first; repeated vertices are left out, wrong orientations turned around (loop 0 runs counter-clockwise, holes clockwise).
+ * Loops may not cross or touch themselves or each other, and holes lie inside loop 0 side by side. loop_count 0: the untrimmed
+ * surface. Report, notes and parameters of a fit come along. Errors: PIA_E_ARGUMENT (a curve, a count), PIA_E_DATA (names loop and
+ * vertex), MEMORY, SIZE. Cost O(n log n) for n vertices, O(n^2) for wildly folded ones.
+ * Evaluation, closest points, length and bounds are those of the whole surface; knot insertion and removal and degree elevation keep
+ * the loops; JSON, STEP and IGES files hold them, an OBJ mesh ends at them, other formats hold the whole surface. */
+pia_status pia_model_trim(pia_context *context, const pia_model *model, pia_index loop_count, const pia_index *vertex_counts,
+                          const double *uv, pia_model **out);
+/* 0 for an untrimmed surface and for a curve. */
+pia_index pia_model_trim_loop_count(const pia_model *model);
+/* Vertices of a loop, borrowed, [*count x 2] without a repeated last one; NULL and 0 when there is no such loop. */
+const double *pia_model_trim_loop(const pia_model *model, pia_index loop, pia_index *count);
+/* 1 when (u, v) lies in the trimmed face; always for an untrimmed model. On an edge either answer is possible. O(vertices). */
+int pia_model_trim_contains(const pia_model *model, double u, double v);
+
 /* Values and derivatives. parameters: [count x directions]; a value outside the domain is taken at its nearest end.
  * derivatives K >= 0: curve out [count x (K+1) x dim], order k at k; surface out [count x (K+1)(K+2)/2 x dim] in the order S, Su, Sv,
  * Suu, Suv, Svv, ... Cost O(degree^2 + dim degree) a curve point. context may be NULL (serial, no message). */
@@ -356,7 +374,7 @@ pia_status pia_model_insert_knots(pia_context *context, const pia_model *model, 
 pia_status pia_model_remove_knots(pia_context *context, const pia_model *model, double bound, pia_model **out, double *error);
 /* Same shape, degree raised by `raise` in one direction. */
 pia_status pia_model_elevate(pia_context *context, const pia_model *model, int direction, int raise, pia_model **out);
-/* The two halves at `value` strictly inside the domain. */
+/* The two halves at `value` strictly inside the domain. Trimmed surfaces are refused (PIA_E_ARGUMENT). */
 pia_status pia_model_split(pia_context *context, const pia_model *model, int direction, double value, pia_model **left,
                            pia_model **right);
 /* The same shape with every inside knot degree-fold: consecutive groups of control points are Bezier pieces. */

@@ -4,7 +4,8 @@
 #include <math.h>
 #include <string.h>
 
-/* Wavefront OBJ: vertices are read as points; a curve is written as a polyline, a surface as a mesh of quadrilaterals. */
+/* Wavefront OBJ: vertices are read as points; a curve is written as a polyline, a surface as a mesh of
+ * quadrilaterals, those of a trimmed one that have all corners in the face. */
 
 typedef struct vertices {
     double *values; /* [count x 3] */
@@ -62,12 +63,25 @@ static void write_vertices(pia_output *output, const double *points, pia_index c
     }
 }
 
+/* Which vertices lie in the face; NULL for all. */
+static pia_status find_inside(pia_context *context, const pia_model *model, const double *parameters, pia_index count, char **out)
+{
+    *out = NULL;
+    if (pia_model_trim_loop_count(model) == 0) return PIA_OK;
+    *out = pia_take(context, count, sizeof **out);
+    if (*out == NULL) return pia_take_status(context, count, sizeof **out);
+    for (pia_index i = 0; i < count; i++) (*out)[i] = (char)pia_model_trim_contains(model, parameters[2 * i], parameters[2 * i + 1]);
+    return PIA_OK;
+}
+
 /* Lines or quadrilaterals between the [size[0] x size[1]] vertices that follow number `base`, counted from 1. */
-static void write_elements(pia_output *output, pia_index base, const pia_index size[2], int directions)
+static void write_elements(pia_output *output, pia_index base, const pia_index size[2], int directions, const char *inside)
 {
     for (pia_index i = 0; i + 1 < size[0]; i++) {
         if (directions == 1) pia_output_text(output, "l %lld %lld\n", (long long)(base + i + 1), (long long)(base + i + 2));
         for (pia_index j = 0; j + 1 < size[1]; j++) {
+            const char *in = inside != NULL ? inside + i * size[1] + j : NULL;
+            if (in != NULL && !(in[0] && in[1] && in[size[1]] && in[size[1] + 1])) continue;
             long long corner = (long long)(base + i * size[1] + j + 1), next = corner + (long long)size[1];
             pia_output_text(output, "f %lld %lld %lld %lld\n", corner, next, next + 1, corner + 1);
         }
@@ -86,12 +100,18 @@ static pia_status write_models(pia_context *context, pia_output *output, const p
             return pia_fail(context, PIA_E_SHAPE, "OBJ holds at most 3 components, the model has %d; write another format", model->dim);
         pia_status status = pia_model_sample(context, model, samples, &parameters, &points, size);
         if (status != PIA_OK) return status;
-        pia_output_text(output, "o model_%lld\n", (long long)k);
-        write_vertices(output, points, size[0] * size[1], model->dim);
-        write_elements(output, base, size, model->directions);
+        char *inside;
+        status = find_inside(context, model, parameters, size[0] * size[1], &inside);
+        if (status == PIA_OK) {
+            pia_output_text(output, "o model_%lld\n", (long long)k);
+            write_vertices(output, points, size[0] * size[1], model->dim);
+            write_elements(output, base, size, model->directions, inside);
+        }
+        pia_give(context, inside);
         base += size[0] * size[1];
         pia_give(context, parameters);
         pia_give(context, points);
+        if (status != PIA_OK) return status;
     }
     return PIA_OK;
 }

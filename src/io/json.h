@@ -18,6 +18,9 @@ void pia_json_write_fit(pia_output *output, const pia_summary *summary);
 /* The inverse; members that are missing or of another type keep their neutral value (0, "", NaN). 0 when memory is short. */
 int pia_json_read_fit(const pia_memory *memory, const json_t *fit, pia_summary *summary);
 
+/* ', "trims": {...}', a member of the surface's object that is not its first. */
+void pia_json_write_trim(pia_output *output, const pia_trim *trim);
+
 /* The writer of the format; samples is not used. */
 pia_status pia_json_write_models(pia_context *context, pia_output *output, const pia_model *const *models, pia_index count,
                                  pia_index samples);
@@ -36,6 +39,10 @@ pia_status pia_json_get_index(const pia_json_place *place, const json_t *object,
                               pia_index *out);
 /* The numbers of `array`, called `key` in messages; taken with pia_take. */
 pia_status pia_json_get_reals(const pia_json_place *place, const json_t *array, const char *key, double **out, pia_index *count);
+/* Rows of equal length, 1 to PIA_MAX_DIM numbers each; taken with pia_take. */
+pia_status pia_json_get_points(const pia_json_place *place, const json_t *rows, double **out, pia_index *count, int *dim);
+/* The object "trims" of a surface: *model becomes the trimmed one. PIA_E_FORMAT, PIA_E_DATA, PIA_E_MEMORY. */
+pia_status pia_json_read_trim(const pia_json_place *place, const json_t *trims, pia_model **model);
 /* The model that one member of shape.data describes. PIA_E_FORMAT, PIA_E_MEMORY. */
 pia_status pia_json_read_shape(const pia_json_place *place, const json_t *data, int directions, pia_model **out);
 

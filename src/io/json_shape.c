@@ -42,8 +42,7 @@ pia_status pia_json_get_reals(const pia_json_place *place, const json_t *array, 
     return PIA_OK;
 }
 
-/* Rows of equal length, 1 to PIA_MAX_DIM numbers each. */
-static pia_status get_points(const pia_json_place *place, const json_t *rows, double **out, pia_index *count, int *dim)
+pia_status pia_json_get_points(const pia_json_place *place, const json_t *rows, double **out, pia_index *count, int *dim)
 {
     if (!json_is_array(rows) || json_array_size(rows) == 0) return pia_json_fail(place, "points", "must be an array of points");
     pia_index size = (pia_index)json_array_size(rows), width = (pia_index)json_array_size(json_array_get(rows, 0)), total;
@@ -118,7 +117,7 @@ static pia_status collect(const pia_json_place *place, const json_t *data, shape
         status = get_direction(place, data, 0, "degree_u", "knotvector_u", s);
         if (status == PIA_OK) status = get_direction(place, data, 1, "degree_v", "knotvector_v", s);
     }
-    if (status == PIA_OK) status = get_points(place, json_object_get(control, "points"), &s->points, &s->point_count, &s->dim);
+    if (status == PIA_OK) status = pia_json_get_points(place, json_object_get(control, "points"), &s->points, &s->point_count, &s->dim);
     if (status == PIA_OK) status = get_sizes(place, data, s);
     if (status == PIA_OK && json_is_true(json_object_get(data, "rational")))
         status = pia_json_get_reals(place, json_object_get(control, "weights"), "weights", &s->weights, &s->weight_count);
@@ -133,15 +132,29 @@ static pia_status collect(const pia_json_place *place, const json_t *data, shape
     return status;
 }
 
+static pia_status make_model(const pia_json_place *place, const json_t *data, const shape *s, pia_model **out)
+{
+    const double *knots[2] = {s->knots[0], s->knots[1]};
+    const json_t *trims = s->directions == 2 ? json_object_get(data, "trims") : NULL;
+    pia_model *model = NULL;
+    pia_status status =
+        pia_model_create(place->context, s->directions, s->degree, knots, s->control, s->dim, s->points, s->weights, &model);
+    if (status == PIA_OK && trims != NULL) status = pia_json_read_trim(place, trims, &model);
+    if (status == PIA_OK)
+        *out = model;
+    else
+        pia_model_destroy(model);
+    return status;
+}
+
 pia_status pia_json_read_shape(const pia_json_place *place, const json_t *data, int directions, pia_model **out)
 {
     if (!json_is_object(data)) return pia_json_fail(place, "data", "must be an object");
     shape s = {.directions = directions};
     pia_status status = collect(place, data, &s);
     if (status == PIA_OK) {
-        const double *knots[2] = {s.knots[0], s.knots[1]};
-        status = pia_model_create(place->context, directions, s.degree, knots, s.control, s.dim, s.points, s.weights, out);
-        if (status != PIA_OK && status != PIA_E_MEMORY) {
+        status = make_model(place, data, &s, out);
+        if (status != PIA_OK && status != PIA_E_MEMORY && status != PIA_E_FORMAT) {
             char why[300];
             snprintf(why, sizeof why, "%s", pia_message(place->context));
             status = pia_input_fail(place->context, place->input, NULL, "shape.data[%lld]: %s", (long long)place->model, why);

@@ -59,7 +59,7 @@ static void write_points(pia_output *output, const pia_model *model, pia_index c
         pia_output_text(output, i > 0 ? ", " : ",\n      \"weights\": [");
         pia_json_write_real(output, model->points[i * width + model->dim]);
     }
-    pia_output_text(output, model->rational ? "]}}" : "}}");
+    pia_output_text(output, model->rational ? "]}" : "}");
 }
 
 static void write_shape(pia_output *output, const pia_model *model)
@@ -77,6 +77,8 @@ static void write_shape(pia_output *output, const pia_model *model)
                         (long long)model->control[1]);
     }
     write_points(output, model, model->control[0] * model->control[1], pia_model_width(model));
+    if (model->trim != NULL) pia_json_write_trim(output, model->trim);
+    pia_output_bytes(output, "}", 1);
 }
 
 static void write_dropped(pia_output *output, const pia_summary *summary)

@@ -129,6 +129,7 @@ void pia_model_destroy(pia_model *model)
     if (model == NULL) return;
     pia_memory memory = model->memory;
     pia_summary_destroy(&memory, model->summary);
+    pia_trim_destroy(&memory, model->trim);
     for (int d = 0; d < 2; d++) pia_memory_give(&memory, model->knots[d]);
     pia_memory_give(&memory, model->points);
     pia_memory_give(&memory, model);

@@ -4,6 +4,7 @@
 
 #include "context.h"
 #include "summary.h"
+#include "trim.h"
 
 enum { PIA_MAX_WIDTH = PIA_MAX_DIM + 1 };
 
@@ -18,6 +19,7 @@ struct pia_model {
     double *points;       /* [control[0] x control[1] x (dim + rational)] */
     int periodic[2];
     pia_summary *summary; /* NULL unless a fit made the model */
+    pia_trim *trim;       /* NULL unless the surface is trimmed */
 };
 
 /* A model whose knots and points are still to be filled in. Checks degrees, counts and sizes only. */

@@ -37,7 +37,11 @@ pia_status pia_model_rebase(pia_context *context, const pia_model *model, int di
     control[direction] = target_control;
     pia_model *made = NULL;
     status = pia_model_new(context, model->directions, degrees, control, model->dim, model->rational, &made);
-    if (status != PIA_OK) return status;
+    if (status == PIA_OK) status = pia_trim_copy(context, model->trim, &made->trim);
+    if (status != PIA_OK) {
+        pia_model_destroy(made);
+        return status;
+    }
     for (int d = 0; d < model->directions; d++) {
         const double *knots = d == direction ? target : model->knots[d];
         memcpy(made->knots[d], knots, (size_t)(control[d] + degrees[d] + 1) * sizeof *knots);

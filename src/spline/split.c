@@ -18,6 +18,9 @@ pia_status pia_model_split(pia_context *context, const pia_model *model, int dir
     pia_status status = pia_model_check_direction(context, model, direction);
     if (status != PIA_OK) return status;
     if (left == NULL || right == NULL) return pia_fail(context, PIA_E_ARGUMENT, "pia_model_split needs left and right");
+    if (model->trim != NULL)
+        return pia_fail(context, PIA_E_ARGUMENT,
+                        "a trimmed surface is not split; take its trim loops away first (pia_model_trim with none)");
     int degree = model->degree[direction];
     pia_index control = model->control[direction], count = control + degree + 1;
     const double *knots = model->knots[direction];
