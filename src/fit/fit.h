@@ -59,6 +59,7 @@ struct pia_fit {
     double *weights;                        /* [rows]; NULL: 1 */
     double *tolerances, *inverse_tolerance; /* [rows] what each row may deviate; NULL: the option for all */
     int has_holes;
+    int unseen; /* 1: nobody has looked at the points yet: no origin, no extent; and the parameters given may not be in order */
     double origin[PIA_MAX_DIM], low[PIA_MAX_DIM], high[PIA_MAX_DIM];
     double extent; /* of what is fitted */
 
@@ -101,13 +102,21 @@ struct pia_fit {
     double seconds;                  /* spent in opening */
 };
 
+/* Leaves the points of an open curve with given parameters unseen: the pass that sums them may look at them as well. */
 pia_status pia_fit_take_data(pia_fit *fit, const pia_data *data);
+/* Looks at points that no such pass will see. */
+pia_status pia_fit_see(pia_fit *fit);
+/* The `look` of a normal form, owner a fit: that pass's findings become origin and extent, or an error that names the row. */
+struct pia_survey;
+pia_status pia_fit_look(void *owner, const struct pia_survey *survey);
 pia_status pia_fit_choose(pia_fit *fit);
 /* The names of what was chosen, into a report. */
 void pia_fit_names(const pia_fit *fit, pia_report *report);
 /* Corners of a curve that is to be refined; a closed one is opened at its first corner. Before its parameters are computed. */
 pia_status pia_fit_take_corners(pia_fit *fit);
 pia_status pia_fit_parametrize(pia_fit *fit, const pia_data *data);
+/* The error of given parameters [count] that are not good. */
+pia_status pia_fit_refuse_parameters(pia_fit *fit, const double *given, int direction, pia_index count);
 pia_status pia_fit_place(pia_fit *fit);
 pia_status pia_fit_operate(pia_fit *fit);
 /* Operator, normal form and iterate for the current knots, in place of the ones before; control points undefined. */

@@ -1,7 +1,8 @@
 /* Data at the door: shapes, finite values, bounding box; then rows that repeat their neighbour. */
+#include "box.h"
 #include "fit.h"
 #include "kernel.h"
-#include "scan.h"
+#include "survey.h"
 
 #include <math.h>
 #include <stdarg.h>
@@ -64,7 +65,10 @@ static void scan_chunk(void *work, pia_index chunk)
     const scan *s = work;
     box b = {.bad = -1};
     pia_index from = pia_chunk_begin(s->rows, s->chunks, chunk), to = pia_chunk_begin(s->rows, s->chunks, chunk + 1);
-    if (!pia_scan_box(s->points + from * s->dim, to - from, s->dim, b.low, b.high)) scan_rows(s, from, to, &b);
+    pia_box scanned;
+    pia_box_open(s->dim, &scanned);
+    pia_box_add(&scanned, s->points + from * s->dim, to - from);
+    if (!pia_box_close(&scanned, b.low, b.high)) scan_rows(s, from, to, &b);
     s->part[chunk] = b;
 }
 
@@ -91,12 +95,12 @@ static pia_status bound(pia_fit *fit, const double *points, pia_index rows, int 
                     (long long)all.bad, d, points[all.bad * dim + d]);
 }
 
-static pia_status set_box(pia_fit *fit, const box *b, int first)
+static pia_status set_box(pia_fit *fit, const double *low, const double *high)
 {
     double square = 0, largest = 0;
     for (int d = 0; d < fit->dim; d++) {
-        fit->low[d] = b->low[d + first];
-        fit->high[d] = b->high[d + first];
+        fit->low[d] = low[d];
+        fit->high[d] = high[d];
         double side = fit->high[d] - fit->low[d];
         if (!isfinite(side))
             return pia_fail(fit->context, PIA_E_DATA, "component %d spans more than a double can hold; rescale the points", d);
@@ -111,6 +115,31 @@ static pia_status set_box(pia_fit *fit, const box *b, int first)
     }
     return pia_fail(fit->context, PIA_E_DATA, "all %lld points are equal; there is no %s to fit", (long long)fit->rows,
                     fit->directions == 1 ? "curve" : "surface");
+}
+
+static pia_status see(pia_fit *fit, const double *points, int dim)
+{
+    box all;
+    int first = dim - fit->dim;
+    pia_status status = bound(fit, points, fit->rows, dim, &all);
+    if (status != PIA_OK) return status;
+    fit->has_holes = all.holes;
+    fit->unseen = 0;
+    return set_box(fit, all.low + first, all.high + first);
+}
+
+pia_status pia_fit_see(pia_fit *fit)
+{
+    return fit->unseen ? see(fit, fit->points, fit->dim) : PIA_OK;
+}
+
+pia_status pia_fit_look(void *owner, const pia_survey *survey)
+{
+    pia_fit *fit = owner;
+    if (!survey->ordered) return pia_fit_refuse_parameters(fit, fit->parameter[0], 0, fit->rows);
+    if (!survey->finite) return pia_fit_see(fit);
+    fit->unseen = 0;
+    return set_box(fit, survey->low, survey->high);
 }
 
 /* ---- dropping rows and lines ---- */
@@ -352,11 +381,8 @@ pia_status pia_fit_take_data(pia_fit *fit, const pia_data *data)
     fit->function_graph = data->function_graph;
     fit->dim = data->dim - (data->function_graph != 0);
     fit->points = data->points;
-    box all;
-    status = bound(fit, data->points, fit->rows, data->dim, &all);
-    if (status != PIA_OK) return status;
-    fit->has_holes = all.holes;
-    status = set_box(fit, &all, data->function_graph != 0);
+    fit->unseen = fit->kind == PIA_CURVE && data->parameters != NULL && !fit->function_graph && !fit->options.closed[0];
+    if (!fit->unseen) status = see(fit, data->points, data->dim);
     if (status == PIA_OK) status = take_weights(fit, data->weights);
     if (status == PIA_OK) status = take_tolerances(fit, data->tolerances);
     if (status == PIA_OK && fit->function_graph) return take_graph(fit, data);

@@ -120,8 +120,7 @@ static pia_status take_iterate(pia_fit *fit)
 {
     pia_iterate *iterate = &fit->iterate;
     pia_index size = fit->op->cols * fit->dim, iteration = iterate->iteration;
-    *iterate = (pia_iterate){
-        .context = fit->context, .op = fit->op, .dim = fit->dim, .extent = fit->extent, .owner = fit, .iteration = iteration};
+    *iterate = (pia_iterate){.context = fit->context, .op = fit->op, .dim = fit->dim, .owner = fit, .iteration = iteration};
     iterate->targets = (pia_targets){fit->points, fit->origin, fit->dim};
     iterate->square = fit->square;
     iterate->constraint_error = iterate->relative_gradient = NAN;
@@ -134,6 +133,7 @@ static pia_status take_iterate(pia_fit *fit)
         pia_status status = pia_fit_open_normal(fit);
         if (status != PIA_OK && (status != PIA_E_UNAVAILABLE || fit->options.fairing > 0)) return status;
     }
+    iterate->extent = fit->extent; /* the pass over the points may have found it */
     int fused = fit->solve.method->step != NULL && fit->solve.limiter == NULL;
     if (((needs & PIA_NEEDS_ROWS) != 0 && !fused) || (!fit->square && iterate->normal == NULL) || fit->refining) {
         iterate->residual = pia_take(fit->context, fit->rows * fit->dim, sizeof(double));
@@ -199,6 +199,7 @@ static pia_status open_stages(pia_fit *fit, const pia_data *data)
     for (int d = 0; d < 2 && fit->options.start != NULL; d++) fit->options.closed[d] |= fit->options.start->periodic[d];
     if (status == PIA_OK) status = pia_fit_take_data(fit, data);
     if (status == PIA_OK) status = pia_fit_choose(fit);
+    if (status == PIA_OK && (fit->square || fit->refining || pia_fit_by_line(fit))) status = pia_fit_see(fit);
     if (status == PIA_OK) status = pia_fit_parametrize(fit, data);
     if (status == PIA_OK) status = pia_fit_place(fit);
     if (status == PIA_OK) status = pia_fit_assemble(fit);

@@ -7,7 +7,7 @@
 #include <string.h>
 
 /* The first parameter that is not finite, falls, or leaves the period. */
-static pia_status refuse_given(pia_fit *fit, const double *given, int direction, pia_index given_count)
+pia_status pia_fit_refuse_parameters(pia_fit *fit, const double *given, int direction, pia_index given_count)
 {
     pia_context *context = fit->context;
     const char *where = fit->directions == 1 ? "" : direction == 0 ? "u " : "v ";
@@ -28,8 +28,9 @@ static pia_status take_given(pia_fit *fit, const double *given, int direction, p
 {
     pia_context *context = fit->context;
     double first = given[0], last = given[given_count - 1];
-    if (!pia_scan_ordered(context, given, given_count) || !(first < last) || (fit->closed[direction] && !(first >= 0 && last <= 1)))
-        return refuse_given(fit, given, direction, given_count);
+    int ordered = fit->unseen ? isfinite(first) && isfinite(last) : pia_scan_ordered(context, given, given_count);
+    if (!ordered || !(first < last) || (fit->closed[direction] && !(first >= 0 && last <= 1)))
+        return pia_fit_refuse_parameters(fit, given, direction, given_count);
     if (fit->borrowed && fit->row == NULL && fit->directions == 1 && !fit->closed[0]) {
         fit->parameter[0] = (double *)(uintptr_t)given; /* never written while it is borrowed */
         fit->borrowed_parameters = 1;

@@ -68,7 +68,8 @@ pia_status pia_fit_report(pia_fit *fit, pia_report *report)
     full.reached = reached(fit);
     full.constraint_error = iterate->constraint_error;
     full.relative_gradient = iterate->relative_gradient;
-    full.start_error = isnan(fit->solve.start_error) ? full.max_error : fit->solve.start_error;
+    if (isnan(fit->solve.start_error)) fit->solve.start_error = full.max_error;
+    full.start_error = fit->solve.start_error;
     full.rate = fit->solve.rate;
     full.unsupported_count = fit->unsupported_count;
     if (iterate->normal != NULL && iterate->normal->weak > full.unsupported_count) full.unsupported_count = iterate->normal->weak;

@@ -86,7 +86,8 @@ static pia_status find_unsupported(pia_fit *fit)
 pia_status pia_fit_open_normal(pia_fit *fit)
 {
     pia_iterate *iterate = &fit->iterate;
-    pia_addition addition = {fit->options.fairing, fit->pull, fit->pull_start};
+    pia_addition addition = {.fairing = fit->options.fairing, .pull = fit->pull, .start = fit->pull_start, .owner = fit};
+    if (fit->unseen) addition.look = pia_fit_look;
     pia_normal_close(fit->normal);
     iterate->normal = fit->normal = NULL;
     pia_status status = pia_normal_open_with(fit->op, &iterate->targets, &addition, &fit->normal);

@@ -14,10 +14,10 @@ static pia_status take_arrays(pia_normal *normal, int dim)
 }
 
 /* A grid that turns out to be no Kronecker product, and with more than the data in it it is none, is a surface like any other. */
-static pia_status open_class(pia_normal *normal, const pia_targets *targets)
+static pia_status open_class(pia_normal *normal, const pia_targets *targets, const pia_addition *addition)
 {
     const pia_op *op = normal->op;
-    if (op->directions == 1) return pia_normal_curve_open(normal, targets);
+    if (op->directions == 1) return pia_normal_curve_open(normal, targets, addition);
     if (op->line[0] == NULL || op->frozen != NULL || normal->energy != NULL || normal->pull > 0)
         return pia_normal_stencil_open(normal, targets);
     pia_status status = pia_normal_grid_open(normal, targets);
@@ -41,7 +41,7 @@ pia_status pia_normal_open_with(pia_op *op, const pia_targets *targets, const pi
     normal->start = addition->start;
     pia_status status = take_arrays(normal, targets->dim);
     if (status == PIA_OK && addition->fairing > 0) status = pia_energy_open(op, addition->fairing, &normal->energy);
-    if (status == PIA_OK) status = open_class(normal, targets);
+    if (status == PIA_OK) status = open_class(normal, targets, addition);
     if (status != PIA_OK) {
         pia_normal_close(normal);
         return status;

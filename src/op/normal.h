@@ -7,6 +7,7 @@
 #include "op.h"
 
 struct pia_energy;
+struct pia_survey;
 typedef struct pia_normal pia_normal;
 
 typedef struct pia_normal_class {
@@ -43,6 +44,10 @@ typedef struct pia_addition {
     double fairing;      /* strength of the fairing energy beside the data (energy.h); 0: none */
     double pull;         /* weight of |P - start|^2; 0: none */
     const double *start; /* [cols x dim] relative to the targets' origin, borrowed; NULL without pull */
+    /* Of a curve whose rows nobody has checked yet: called with what the pass over them has found, before the targets' origin is used;
+     * anything but PIA_OK ends it. NULL: they are good. */
+    pia_status (*look)(void *owner, const struct pia_survey *survey);
+    void *owner;
 } pia_addition;
 pia_status pia_normal_open_with(pia_op *op, const pia_targets *targets, const pia_addition *addition, pia_normal **out);
 void pia_normal_close(pia_normal *normal);
@@ -54,7 +59,7 @@ void pia_normal_refresh(pia_normal *normal, const pia_targets *targets, pia_inde
 /* For the classes, when all else is in the sums: the pull in `right`, `diagonal` and `column_sum`; H is theirs. */
 void pia_normal_add_pull(pia_normal *normal, int dim);
 /* For pia_normal_open: the normal forms of its operators, whose arrays are allocated and whose state is to be made. */
-pia_status pia_normal_curve_open(pia_normal *normal, const pia_targets *targets);
+pia_status pia_normal_curve_open(pia_normal *normal, const pia_targets *targets, const pia_addition *addition);
 pia_status pia_normal_grid_open(pia_normal *normal, const pia_targets *targets);
 pia_status pia_normal_stencil_open(pia_normal *normal, const pia_targets *targets);
 

@@ -17,20 +17,36 @@ static pia_index spans(const pia_collocation *line)
     return line->full - line->degree;
 }
 
-static void assemble(pia_normal *normal, int dim)
+/* right [width x dim] += the span's sums with the data, moved from its first point to the origin. */
+static void add_right(const double *share, int width, const double *shift, int dim, double **right)
+{
+    double sum[PIA_MAX_DEGREE + 1] = {0};
+    for (int k = 0; k < width; k++) {
+        sum[k] += *share++;
+        for (int l = k + 1; l < width; l++, share++) {
+            sum[k] += *share;
+            sum[l] += *share;
+        }
+    }
+    for (int k = 0; k < width; k++)
+        for (int d = 0; d < dim; d++) right[k][d] += *share++ + shift[d] * sum[k];
+}
+
+static void assemble(pia_normal *normal, const pia_targets *targets)
 {
     curve *c = normal->state;
     const pia_collocation *line = c->gram.line;
-    int width = line->degree + 1, triangle = pia_span_room(line->degree, 0);
+    pia_span_data data = {normal->op->context, line, normal->op->weights, targets};
+    int width = line->degree + 1, dim = targets->dim;
+    double *right[PIA_MAX_DEGREE + 1], shift[PIA_MAX_DIM];
     pia_gram_clear(&c->gram);
     memset(normal->right, 0, (size_t)(line->unknowns * dim) * sizeof *normal->right);
     for (pia_index s = 0; s < spans(line); s++) {
         const double *share = c->share + s * c->room;
         pia_gram_add(&c->gram, s, share);
-        for (int k = 0; k < width; k++) {
-            double *right = normal->right + pia_collocation_unknown(line, s + k) * dim;
-            for (int d = 0; d < dim; d++) right[d] += share[triangle + k * dim + d];
-        }
+        for (int k = 0; k < width; k++) right[k] = normal->right + pia_collocation_unknown(line, s + k) * dim;
+        pia_span_shift(&data, s, shift);
+        add_right(share, width, shift, dim, right);
     }
     pia_op_mask(normal->op, normal->right, dim);
 }
@@ -92,8 +108,8 @@ static void refresh(pia_normal *normal, const pia_targets *targets, pia_index fi
     const pia_collocation *line = c->gram.line;
     pia_index first = pia_collocation_span(line, first_row) - line->degree, last = pia_collocation_span(line, last_row) - line->degree;
     pia_span_data data = {normal->op->context, line, normal->op->weights, targets};
-    pia_span_sums(&data, first, last, c->share + first * c->room);
-    assemble(normal, targets->dim);
+    pia_span_sums(&data, first, last, c->share + first * c->room, NULL);
+    assemble(normal, targets);
     derive(normal);
     add_more(normal, targets->dim);
 }
@@ -110,7 +126,7 @@ static void close(pia_normal *normal)
 static const pia_normal_class banded = {
     .name = "banded", .multiply = multiply, .factor = factor, .solve = solve, .sweep = sweep, .refresh = refresh, .close = close};
 
-pia_status pia_normal_curve_open(pia_normal *normal, const pia_targets *targets)
+pia_status pia_normal_curve_open(pia_normal *normal, const pia_targets *targets, const pia_addition *addition)
 {
     pia_context *context = normal->op->context;
     const pia_collocation *line = normal->op->line[0];
@@ -126,8 +142,11 @@ pia_status pia_normal_curve_open(pia_normal *normal, const pia_targets *targets)
     pia_status status = pia_gram_open(context, line, &c->gram);
     if (status != PIA_OK) return status;
     pia_span_data data = {context, line, normal->op->weights, targets};
-    pia_span_sums(&data, 0, spans(line) - 1, c->share);
-    assemble(normal, targets->dim);
+    pia_survey survey;
+    pia_span_sums(&data, 0, spans(line) - 1, c->share, addition->look != NULL ? &survey : NULL);
+    if (addition->look != NULL) status = addition->look(addition->owner, &survey);
+    if (status != PIA_OK) return status;
+    assemble(normal, targets);
     derive(normal);
     add_more(normal, targets->dim);
     return PIA_OK;

@@ -7,8 +7,8 @@
 #include <string.h>
 
 /* Below FEW points a function, evaluating them is cheaper than the change of basis. PIECE: rows of a span that one task sums; longer
- * spans are shared between tasks. GRAIN: rows a task gets when spans are short. */
-enum { FEW = 2, PIECE = 262144, GRAIN = 16384, MAX_CHUNKS = 256 };
+ * spans are shared between tasks. GRAIN: rows a task gets when spans are short. BLOCK: rows that are summed at a time. */
+enum { FEW = 2, PIECE = 262144, GRAIN = 16384, MAX_CHUNKS = 256, BLOCK = 1024 };
 
 int pia_span_room(int degree, int dim)
 {
@@ -28,10 +28,10 @@ static inline __attribute__((always_inline)) void plain_span(const pia_span_data
 {
     const pia_collocation *line = data->line;
     double scratch[PIA_MAX_DEGREE + 1];
+    const double *points = dim > 0 ? data->targets->points : NULL, *origin = dim > 0 ? points + line->begin[s] * dim : NULL;
     memset(share, 0, (size_t)pia_span_room(degree, dim) * sizeof *share);
     for (pia_index row = line->begin[s]; row < line->begin[s + 1]; row++) {
-        const double *value = pia_collocation_row(line, row, degree + s, scratch);
-        const double *q = dim > 0 ? data->targets->points + row * dim : NULL, *origin = dim > 0 ? data->targets->origin : NULL;
+        const double *value = pia_collocation_row(line, row, degree + s, scratch), *q = dim > 0 ? points + row * dim : NULL;
         add_point(value, data->weights != NULL ? data->weights[row] : 1, q, origin, degree, dim, share);
     }
 }
@@ -73,37 +73,67 @@ pia_run pia_span_run(const pia_span_data *data, const pia_chebyshev *c, pia_inde
     return run;
 }
 
-typedef struct pieces {
-    const pia_run *whole;
-    pia_index from, count;
-    double (*sums)[PIA_RUN_SUMS];
-} pieces;
+/* The same, relative to its first point. */
+static pia_run centred_run(const pia_span_data *data, const pia_chebyshev *c, pia_index s, double *coefficient)
+{
+    pia_run run = pia_span_run(data, c, s, coefficient);
+    run.origin = run.points;
+    return run;
+}
+
+static void open_scout(const pia_span_data *data, pia_index from, pia_index to, pia_scout *out)
+{
+    pia_scout_open(data->line->parameters, data->targets->points, data->targets->dim, from, to, out);
+}
+
+/* Rows from .. to - 1 of a run that begins with row `first` of the line, a block at a time, which the scout (NULL: none) sees first. */
+static void sum_rows(const pia_run *run, pia_index first, pia_index from, pia_index to, pia_scout *scout, double *sums)
+{
+    pia_run block = *run;
+    for (pia_index row = from; row < to; row += BLOCK) {
+        block.count = to - row < BLOCK ? to - row : BLOCK;
+        block.t = run->t + row;
+        if (run->points != NULL) block.points = run->points + row * run->dim;
+        if (run->weights != NULL) block.weights = run->weights + row;
+        if (scout != NULL) pia_scout_reach(scout, first + row + block.count);
+        pia_run_moments(&block, sums);
+    }
+}
 
 enum { AT_ONCE = 16 }; /* pieces of a long run */
+
+typedef struct pieces {
+    const pia_span_data *data;
+    const pia_run *run;
+    pia_index first, from, count; /* rows [from, from + count) of the run, whose row 0 is `first` of the line */
+    double (*sums)[PIA_RUN_SUMS];
+    pia_survey *survey; /* [AT_ONCE], NULL: unwanted */
+} pieces;
 
 static void sum_piece(void *work, pia_index chunk)
 {
     const pieces *p = work;
-    pia_run run = *p->whole;
-    pia_index from = p->from + pia_chunk_begin(p->count, AT_ONCE, chunk);
-    run.count = p->from + pia_chunk_begin(p->count, AT_ONCE, chunk + 1) - from;
-    run.t += from;
-    if (run.points != NULL) run.points += from * run.dim;
-    if (run.weights != NULL) run.weights += from;
+    pia_index from = p->from + pia_chunk_begin(p->count, AT_ONCE, chunk), to = p->from + pia_chunk_begin(p->count, AT_ONCE, chunk + 1);
+    pia_scout scout;
     memset(p->sums[chunk], 0, sizeof *p->sums);
-    pia_run_moments(&run, p->sums[chunk]);
+    if (p->survey != NULL) open_scout(p->data, p->first + from, p->first + to, &scout);
+    sum_rows(p->run, p->first, from, to, p->survey != NULL ? &scout : NULL, p->sums[chunk]);
+    if (p->survey != NULL) p->survey[chunk] = pia_scout_close(&scout);
 }
 
 /* A span of very many rows: a few pieces at a time, their sums added in order. */
-static void sum_long(pia_context *context, const pia_run *run, double *sums)
+static void sum_long(const pia_span_data *data, const pia_run *run, pia_index first, pia_survey *survey, double *sums)
 {
     double part[AT_ONCE][PIA_RUN_SUMS];
+    pia_survey seen[AT_ONCE];
     for (pia_index from = 0; from < run->count; from += AT_ONCE * (pia_index)PIECE) {
         pia_index count = run->count - from < AT_ONCE * (pia_index)PIECE ? run->count - from : AT_ONCE * (pia_index)PIECE;
-        pieces p = {run, from, count, part};
-        pia_for_each(context, AT_ONCE, sum_piece, &p);
-        for (int c = 0; c < AT_ONCE; c++)
+        pieces p = {data, run, first, from, count, part, survey != NULL ? seen : NULL};
+        pia_for_each(data->context, AT_ONCE, sum_piece, &p);
+        for (int c = 0; c < AT_ONCE; c++) {
             for (int k = 0; k < (run->dim + 2) * (run->degree + 1); k++) sums[k] += part[c][k];
+            if (survey != NULL) *survey = pia_survey_join(survey, &seen[c], run->dim);
+        }
     }
 }
 
@@ -153,17 +183,29 @@ static int is_known(int degree, const double *share)
     return smallest > lost * largest;
 }
 
-static void sum_moments(const pia_span_data *data, const pia_chebyshev *c, pia_index s, double *share)
+static void finish(const pia_span_data *data, const pia_run *run, const double *coefficient, const double *sums, pia_index s,
+                   double *share)
+{
+    change_basis(run->degree, run->dim, coefficient, sums, share);
+    if (!is_known(run->degree, share)) sum_plain(data, s, share);
+}
+
+/* Of a span whose rows are one task's. */
+static void sum_moments(const pia_span_data *data, const pia_chebyshev *c, pia_index s, pia_scout *scout, double *share)
 {
     double coefficient[(PIA_MAX_DEGREE + 1) * (PIA_MAX_DEGREE + 1)], sums[PIA_RUN_SUMS];
-    pia_run run = pia_span_run(data, c, s, coefficient);
+    pia_run run = centred_run(data, c, s, coefficient);
     memset(sums, 0, (size_t)((run.dim + 2) * (run.degree + 1)) * sizeof *sums);
-    if (run.count > PIECE)
-        sum_long(data->context, &run, sums);
-    else
-        pia_run_moments(&run, sums);
-    change_basis(run.degree, run.dim, coefficient, sums, share);
-    if (!is_known(run.degree, share)) sum_plain(data, s, share);
+    sum_rows(&run, data->line->begin[s], 0, run.count, scout, sums);
+    finish(data, &run, coefficient, sums, s, share);
+}
+
+static void sum_long_moments(const pia_span_data *data, const pia_chebyshev *c, pia_index s, pia_survey *survey, double *share)
+{
+    double coefficient[(PIA_MAX_DEGREE + 1) * (PIA_MAX_DEGREE + 1)], sums[PIA_RUN_SUMS] = {0};
+    pia_run run = centred_run(data, c, s, coefficient);
+    sum_long(data, &run, data->line->begin[s], survey, sums);
+    finish(data, &run, coefficient, sums, s, share);
 }
 
 typedef struct sweep {
@@ -171,6 +213,7 @@ typedef struct sweep {
     pia_index first, last, chunks;
     double *share;
     const pia_chebyshev *chebyshev;
+    pia_survey *survey; /* [chunks], NULL: unwanted */
 } sweep;
 
 /* First span of a chunk: chunks hold about the same number of rows. */
@@ -195,32 +238,55 @@ static int is_long(const pia_span_data *data, pia_index s)
     return data->line->begin[s + 1] - data->line->begin[s] > PIECE;
 }
 
-static void sum_chunk(void *work, pia_index chunk)
+/* Spans that are shared between tasks are left out. */
+static void sum_spans(const sweep *w, pia_index from, pia_index to, pia_scout *scout)
 {
-    const sweep *w = work;
-    int room = pia_span_room(w->data->line->degree, components(w->data));
-    for (pia_index s = chunk_span(w, chunk); s < chunk_span(w, chunk + 1); s++) {
+    const pia_collocation *line = w->data->line;
+    int room = pia_span_room(line->degree, components(w->data));
+    for (pia_index s = from; s < to; s++) {
         double *share = w->share + (s - w->first) * room;
-        if (!pia_span_is_full(w->data->line, s))
+        if (is_long(w->data, s)) {
+            if (scout != NULL) scout->next = line->begin[s + 1];
+        } else if (pia_span_is_full(line, s)) {
+            sum_moments(w->data, w->chebyshev, s, scout, share);
+        } else {
+            if (scout != NULL) pia_scout_reach(scout, line->begin[s + 1]);
             sum_plain(w->data, s, share);
-        else if (!is_long(w->data, s))
-            sum_moments(w->data, w->chebyshev, s, share);
+        }
     }
 }
 
-static sweep sweep_over(const pia_span_data *data, pia_index first, pia_index last, double *share, const pia_chebyshev *chebyshev)
+static void sum_chunk(void *work, pia_index chunk)
 {
-    pia_index chunks = pia_chunk_count(data->line->begin[last + 1] - data->line->begin[first], GRAIN);
-    return (sweep){data, first, last, chunks < MAX_CHUNKS ? chunks : MAX_CHUNKS, share, chebyshev};
+    const sweep *w = work;
+    const pia_index *begin = w->data->line->begin;
+    pia_index from = chunk_span(w, chunk), to = chunk_span(w, chunk + 1);
+    pia_scout scout;
+    if (w->survey != NULL) open_scout(w->data, begin[from], begin[to], &scout);
+    sum_spans(w, from, to, w->survey != NULL ? &scout : NULL);
+    if (w->survey != NULL) w->survey[chunk] = pia_scout_close(&scout);
 }
 
-void pia_span_sums(const pia_span_data *data, pia_index first, pia_index last, double *share)
+void pia_span_sums(const pia_span_data *data, pia_index first, pia_index last, double *share, pia_survey *survey)
 {
     pia_chebyshev chebyshev;
-    pia_chebyshev_fill(data->line->degree, &chebyshev);
-    sweep w = sweep_over(data, first, last, share, &chebyshev);
+    pia_survey seen[MAX_CHUNKS];
+    const pia_collocation *line = data->line;
+    pia_chebyshev_fill(line->degree, &chebyshev);
+    pia_index chunks = pia_chunk_count(line->begin[last + 1] - line->begin[first], GRAIN);
+    sweep w = {data, first, last, chunks < MAX_CHUNKS ? chunks : MAX_CHUNKS, share, &chebyshev, survey != NULL ? seen : NULL};
     pia_for_each(data->context, w.chunks, sum_chunk, &w);
+    if (survey != NULL) *survey = seen[0];
+    for (pia_index c = 1; c < w.chunks && survey != NULL; c++) *survey = pia_survey_join(survey, &seen[c], components(data));
     for (pia_index s = first; s <= last; s++) /* their rows are shared between the threads, one such span after the other */
         if (is_long(data, s))
-            sum_moments(data, &chebyshev, s, share + (s - first) * pia_span_room(data->line->degree, components(data)));
+            sum_long_moments(data, &chebyshev, s, survey, share + (s - first) * pia_span_room(line->degree, components(data)));
+}
+
+void pia_span_shift(const pia_span_data *data, pia_index s, double *shift)
+{
+    const pia_collocation *line = data->line;
+    const pia_targets *targets = data->targets;
+    int any = line->begin[s] < line->begin[s + 1];
+    for (int d = 0; d < targets->dim; d++) shift[d] = any ? targets->points[line->begin[s] * targets->dim + d] - targets->origin[d] : 0;
 }

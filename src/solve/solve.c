@@ -238,10 +238,11 @@ pia_status pia_solve_step(pia_solve *solve, pia_index iterations)
         solve->seconds = pia_seconds() - start;
     }
     if (status != PIA_OK) return status;
-    pia_iterate_measure(iterate);
     measure_constraints(iterate);
-    if (isnan(solve->start_error)) solve->start_error = iterate->errors.max;
-    if (solve->rules.trace_every > 0) status = pia_solve_trace(solve);
+    if (solve->rules.trace_every > 0) {
+        pia_iterate_measure(iterate);
+        status = pia_solve_trace(solve);
+    }
     solve->seconds = pia_seconds() - start;
     return status;
 }
