@@ -195,6 +195,11 @@ pia_index pia_constraints_rank(const pia_constraints *c)
     return c->rank;
 }
 
+int pia_constraints_keeps(const pia_constraints *c, pia_index i)
+{
+    return c->begin[i + 1] > c->begin[i];
+}
+
 int pia_constraints_coupled(const pia_constraints *c)
 {
     return c->axis != NULL;

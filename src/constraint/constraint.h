@@ -31,6 +31,9 @@ void pia_constraints_close(pia_constraints *constraints);
 pia_index pia_constraints_count(const pia_constraints *constraints);
 pia_index pia_constraints_rank(const pia_constraints *constraints);
 
+/* 1 when row i is solved for; 0 when others imply it. */
+int pia_constraints_keeps(const pia_constraints *constraints, pia_index i);
+
 /* 1 when a direction couples the components: scalars of an iteration are then those of all components together. */
 int pia_constraints_coupled(const pia_constraints *constraints);
 

@@ -97,6 +97,9 @@ struct pia_fit {
     int pinned;                      /* 1: the ends of the curve are the first and the last row */
     pia_index refined_until;         /* of a refinement: the iteration at which it pauses */
     int paused;                      /* 1: it did, with work left */
+    double *relaxed;                 /* of a refinement: where the last search by relaxation came to, [rows x dim]; NULL: none yet */
+    double relaxation;               /* rows passed over by all of them, which is limited */
+    int factored;                    /* of a refinement: 1: the equations have factors; 2: and those of data and constraints together */
     double began;                    /* of a refinement: when it would have begun if it had not been interrupted */
     double *all_parameters;          /* of a grid, u then v, once asked for; NULL before */
     double seconds;                  /* spent in opening */

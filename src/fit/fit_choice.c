@@ -139,6 +139,22 @@ static pia_status check_fairing(pia_fit *fit)
     return PIA_OK;
 }
 
+/* What makes no sense while the number of control points is still to be found. */
+static pia_status check_refining(pia_fit *fit)
+{
+    const pia_fit_options *o = &fit->options;
+    const char *what = o->freeze_count > 0                                     ? "frozen control points"
+                       : o->soft > 0                                           ? "soft constraints"
+                       : o->limiter != NULL && strcmp(o->limiter, "none") != 0 ? "shape limiters"
+                                                                               : NULL;
+    if (what == NULL) return PIA_OK;
+    return pia_fail(
+        fit->context, PIA_E_ARGUMENT,
+        "the tolerance asks for the number of control points to be found, which %s cannot; give the number (--control), or leave one "
+        "of the two out",
+        what);
+}
+
 static pia_status choose_method(pia_fit *fit)
 {
     const char *name = fit->options.method;
@@ -154,9 +170,10 @@ static pia_status choose_method(pia_fit *fit)
     if (fit->square && fit->has_holes)
         return pia_fail(fit->context, PIA_E_ARGUMENT,
                         "method %s interpolates and cannot leave out points without a value; use direct, lspia or cg", name);
-    if (fit->refining && fit->options.freeze_count > 0)
-        return pia_fail(fit->context, PIA_E_ARGUMENT,
-                        "control points can be frozen where their number is given, not while knots are placed");
+    if (fit->refining) {
+        pia_status status = check_refining(fit);
+        if (status != PIA_OK) return status;
+    }
     pia_index beyond = fit->options.constraint_count + ((needs & PIA_NEEDS_GROUPS) != 0 ? 0 : fit->options.interpolate_count);
     if (beyond > 0 && (needs & PIA_KNOWS_CONSTRAINTS) == 0)
         return pia_fail(fit->context, PIA_E_ARGUMENT, "method %s knows no constraints; use clspia, clspia-pcg or direct", name);

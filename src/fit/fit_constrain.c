@@ -104,8 +104,9 @@ static pia_status build(pia_fit *fit, const pia_constraint *list, pia_index coun
     pia_iterate *iterate = &fit->iterate;
     int soft = fit->options.soft > 0;
     pia_constraints *made;
-    pia_status status = pia_constraints_build(fit->op, &iterate->targets, iterate->points, fit->extent, list, count, fit->row, soft,
-                                              &fit->notes, &made);
+    pia_notes *notes = fit->refining && fit->solve.stop == PIA_STOP_NONE ? NULL : &fit->notes; /* said once, of the last knots */
+    pia_status status =
+        pia_constraints_build(fit->op, &iterate->targets, iterate->points, fit->extent, list, count, fit->row, soft, notes, &made);
     if (status != PIA_OK) return status;
     if (!soft) {
         iterate->constraints = made;

@@ -3,6 +3,7 @@
 
 #include "model.h"
 #include "options.h"
+#include "refine.h"
 #include "sequence.h"
 #include "windows.h"
 
@@ -100,6 +101,7 @@ static void drop_assembly(pia_fit *fit)
     pia_op_close(fit->op);
     fit->normal = NULL;
     fit->op = NULL;
+    fit->factored = 0;
     for (int d = 0; d < 2; d++) pia_collocation_close(fit->context, &fit->line[d]);
     pia_give(fit->context, iterate->points);
     pia_give(fit->context, iterate->adjust);
@@ -208,7 +210,7 @@ static pia_status open_stages(pia_fit *fit, const pia_data *data)
     if (status == PIA_OK) status = freeze_asked(fit);
     if (status == PIA_OK) status = pia_fit_support(fit);
     if (status == PIA_OK) status = pia_fit_take_constraints(fit);
-    if (status == PIA_OK) status = pia_fit_bind(fit);
+    if (status == PIA_OK) status = fit->refining ? pia_refine_begin(fit) : pia_fit_bind(fit);
     if (status != PIA_OK) return status;
     set_rules(fit);
     fit->solve.iterate = &fit->iterate;
@@ -264,6 +266,7 @@ void pia_fit_close(pia_fit *fit)
     pia_give(context, fit->tolerances);
     pia_give(context, fit->inverse_tolerance);
     pia_give(context, fit->own_points);
+    pia_give(context, fit->relaxed);
     pia_give(context, fit->all_parameters);
     pia_give(context, fit->row);
     pia_give(context, fit->corner);

@@ -1,5 +1,6 @@
 #include "refine.h"
 
+#include "constraint.h"
 #include "sequence.h"
 
 #include <math.h>
@@ -27,6 +28,13 @@ pia_status pia_refine_count(pia_fit *fit)
     return every > 0 && fit->iterate.iteration % every == 0 ? pia_solve_trace(&fit->solve) : PIA_OK;
 }
 
+double pia_refine_parameter(const pia_fit *fit, int d, pia_index row)
+{
+    if (fit->kind == PIA_SCATTERED) return fit->parameter[0][2 * row + d];
+    if (fit->directions == 1) return fit->parameter[0][row];
+    return fit->parameter[d][d == 0 ? row / fit->count[1] : row % fit->count[1]];
+}
+
 int pia_refine_reached(const pia_fit *fit)
 {
     return pia_refine_worst(fit, 0, fit->rows) <= 1;
@@ -46,8 +54,10 @@ pia_status pia_refine(pia_fit *fit, pia_index iterations)
     if (fit->solve.stop == PIA_STOP_NONE && !fit->paused)
         fit->solve.stop = pia_refine_reached(fit) ? PIA_STOP_TOLERANCE : PIA_STOP_NO_KNOT_LEFT;
     if (fit->solve.stop == PIA_STOP_NO_KNOT_LEFT)
-        pia_fit_note_add(fit, "the tolerance cannot be had with these parameters: no knot is left that the data could hold; %g can",
-                         fit->iterate.errors.max);
+        pia_fit_note_add(fit, "the tolerance cannot be had with these parameters%s: no knot is left that the data could hold; %g can",
+                         fit->constraint_count > 0 ? " and constraints" : "", fit->iterate.errors.max);
+    if (fit->solve.stop != PIA_STOP_NONE) status = pia_fit_bind(fit);
+    if (status != PIA_OK) return status;
     fit->solve.seconds = pia_seconds() - fit->began;
     return fit->solve.rules.trace_every > 0 ? pia_solve_trace(&fit->solve) : PIA_OK;
 }
@@ -125,19 +135,42 @@ static pia_status pin_ends(pia_fit *fit)
     return status;
 }
 
+/* The correction of least squares, such that the constraints are met where the data allow that; else they are met afterwards. */
+static pia_status correct(pia_fit *fit)
+{
+    pia_iterate *iterate = &fit->iterate;
+    pia_iterate_gradient(iterate, iterate->adjust);
+    iterate->normal->class->solve(iterate->normal, iterate->adjust, fit->dim);
+    pia_op_mask(fit->op, iterate->adjust, fit->dim);
+    pia_status status = fit->factored == 2 && iterate->constraints != NULL
+                            ? pia_constraints_correct(iterate->constraints, iterate->normal, iterate->points, iterate->adjust)
+                            : PIA_OK;
+    for (pia_index i = 0; i < fit->op->cols * fit->dim; i++) iterate->points[i] += iterate->adjust[i];
+    return status;
+}
+
+pia_status pia_refine_factor(pia_fit *fit)
+{
+    pia_iterate *iterate = &fit->iterate;
+    pia_status status = pia_fit_bind(fit);
+    if (status == PIA_OK) status = iterate->normal->class->factor(iterate->normal);
+    if (status != PIA_OK) return status;
+    fit->factored = 2;
+    if (iterate->constraints == NULL) return PIA_OK;
+    status = pia_constraints_factor(iterate->constraints, iterate->normal);
+    if (status == PIA_E_UNAVAILABLE) fit->factored = 1;
+    return status == PIA_E_UNAVAILABLE ? PIA_OK : status;
+}
+
 pia_status pia_refine_solve(pia_fit *fit)
 {
     pia_iterate *iterate = &fit->iterate;
-    size_t bytes = (size_t)(fit->op->cols * fit->dim) * sizeof(double);
-    memset(iterate->points, 0, bytes);
+    memset(iterate->points, 0, (size_t)(fit->op->cols * fit->dim) * sizeof(double));
     iterate->errors_known = 0;
     pia_status status = fit->pinned ? pin_ends(fit) : PIA_OK;
-    if (status == PIA_OK) status = iterate->normal->class->factor(iterate->normal);
-    for (int step = 0; step < 2 && status == PIA_OK; step++) {
-        pia_iterate_gradient(iterate, iterate->adjust);
-        iterate->normal->class->solve(iterate->normal, iterate->adjust, fit->dim);
-        for (pia_index i = 0; i < fit->op->cols * fit->dim; i++) iterate->points[i] += iterate->adjust[i];
-    }
+    if (status == PIA_OK) status = pia_refine_factor(fit);
+    for (int step = 0; step < 2 && status == PIA_OK; step++) status = correct(fit);
+    if (status == PIA_OK && iterate->constraints != NULL) pia_constraints_finish(iterate->constraints, iterate->points);
     iterate->errors_known = 0;
     pia_iterate_measure(iterate);
     if (isnan(fit->solve.start_error)) fit->solve.start_error = iterate->errors.max;

@@ -2,6 +2,7 @@
 #ifndef PIA_FIT_REFINE_H
 #define PIA_FIT_REFINE_H
 
+#include "draft.h"
 #include "fit.h"
 
 /* Grows, spares and corrects until the tolerance holds with as few control points as can be found. Ends with fit->solve.stop set:
@@ -14,15 +15,48 @@ pia_status pia_refine_surface(pia_fit *fit);
 /* 1 when no row deviates more than it may. */
 int pia_refine_reached(const pia_fit *fit);
 
+/* The knots to begin with: corners, and as many as the constraints need to hold, which they then do. Errors: PIA_E_CONSTRAINT when they
+ * contradict each other or leave a row that has to be within its tolerance no chance. */
+pia_status pia_refine_begin(pia_fit *fit);
+/* Parameter of a row in a direction. */
+double pia_refine_parameter(const pia_fit *fit, int direction, pia_index row);
+
 /* One round of growing: knots where the error is, least squares. *grown is 0 when no span could be split. */
 pia_status pia_refine_grow(pia_fit *fit, int *grown);
 /* Interpolation, where growing ends: every row met. Nothing when parameters repeat, or rows are missing. */
 pia_status pia_refine_interpolate(pia_fit *fit);
-/* Takes knots away as long as no row deviates more than it may. */
+/* Moves the least-squares fit at hand to one that keeps the tolerance, if one is found on the same knots; else
+ * nothing changes. */
+pia_status pia_refine_relax(pia_fit *fit);
+/* Takes knots of a curve away as long as no row deviates more than it may, whatever that does to the other rows. */
 pia_status pia_refine_spare(pia_fit *fit, pia_index *spared);
+/* The same for knot lines of any fit, the whole of which is fitted anew each time: by least squares, which weights and fairing enter.
+ */
+pia_status pia_refine_spare_lines(pia_fit *fit, pia_index *spared);
 
-/* What a row may deviate; the largest deviation over that among rows begin .. end - 1, from the residuals. */
+/* A fit to come back to: what it had inside its domain, and its control points. */
+typedef struct pia_saved {
+    double *inside[2], *points;
+    pia_index count[2], cols;
+} pia_saved;
+/* Errors: PIA_E_MEMORY, which leaves nothing to drop. */
+pia_status pia_refine_save(pia_fit *fit, pia_saved *saved);
+pia_status pia_refine_go_back(pia_fit *fit, const pia_saved *saved);
+void pia_refine_drop(pia_fit *fit, pia_saved *saved);
+/* Least squares with other knots in one direction. */
+pia_status pia_refine_refit(pia_fit *fit, int direction, const double *inside, pia_index count);
+/* The knots strictly inside the domain of a direction. */
+pia_index pia_refine_inside_count(const pia_fit *fit, int direction);
+const double *pia_refine_inside(const pia_fit *fit, int direction);
+
+/* The constraints of a curve that has been grown, as conditions on its drafts: a direction keeps the length that it has now. Both
+ * arrays are the caller's to give back, NULL without constraints; *values holds what the conditions point to. Errors: PIA_E_MEMORY. */
+pia_status pia_refine_conditions(const pia_fit *fit, pia_draft_condition **conditions, pia_index *count, double **values);
+
+/* What a row may deviate; how much a deviation [dim] is over that; the largest deviation over that among rows begin .. end - 1, from
+ * the residuals. */
 double pia_refine_allowed(const pia_fit *fit, pia_index row);
+double pia_refine_ratio(const pia_fit *fit, pia_index row, const double *deviation);
 double pia_refine_worst(const pia_fit *fit, pia_index begin, pia_index end);
 /* Between rounds: calls the progress callback and looks at the clock. Returns 1 when the fit is to stop, with solve.stop set, or to
  * pause because the iterations asked are done. */
@@ -35,6 +69,9 @@ pia_status pia_refine_count(pia_fit *fit);
 pia_status pia_refine_install(pia_fit *fit, const double *knots, pia_index control);
 /* Least squares on the current knots: control points, errors, residuals. */
 pia_status pia_refine_solve(pia_fit *fit);
+
+/* Constraints, and the factors of the equations, for the current knots. */
+pia_status pia_refine_factor(pia_fit *fit);
 
 /* The knots strictly inside the domain of one direction, rising [count]; the domain stays. The operator is not yet made anew. */
 pia_status pia_refine_place(pia_fit *fit, int direction, const double *inside, pia_index count);

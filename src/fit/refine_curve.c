@@ -26,23 +26,9 @@ static pia_status move_to_feet(pia_fit *fit)
     return status;
 }
 
-/* Corners are knots of full multiplicity. */
-static pia_status place_corners(pia_fit *fit)
-{
-    int p = fit->degree[0];
-    if (fit->corner_count == 0) return PIA_OK;
-    double *inside = pia_take(fit->context, fit->corner_count * p, sizeof *inside);
-    if (inside == NULL) return PIA_E_MEMORY;
-    for (pia_index k = 0; k < fit->corner_count * p; k++) inside[k] = fit->parameter[0][fit->corner[k / p]];
-    pia_status status = pia_refine_place(fit, 0, inside, fit->corner_count * p);
-    pia_give(fit->context, inside);
-    return status == PIA_OK ? pia_fit_assemble(fit) : status;
-}
-
 static pia_status grow_until_kept(pia_fit *fit)
 {
-    pia_status status = fit->round == 0 ? place_corners(fit) : PIA_OK;
-    if (status == PIA_OK && fit->round == 0) status = pia_refine_solve(fit);
+    pia_status status = fit->round == 0 ? pia_refine_solve(fit) : PIA_OK;
     if (status == PIA_OK && fit->round == 0 && fit->solve.rules.trace_every > 0) status = pia_solve_trace(&fit->solve);
     int more = 1;
     for (int k = 0; k < MAX_GROWTH && status == PIA_OK && more && !pia_refine_reached(fit) && !pia_refine_stopped(fit); k++) {
@@ -53,12 +39,18 @@ static pia_status grow_until_kept(pia_fit *fit)
     return status;
 }
 
+/* With weights or fairing the result is the least-squares fit on the knots that are found, since it is that they are about. */
+static int is_weighed(const pia_fit *fit)
+{
+    return fit->weights != NULL || fit->options.fairing > 0;
+}
+
 pia_status pia_refine_curve(pia_fit *fit)
 {
     pia_status status = grow_until_kept(fit);
     pia_index spared = status == PIA_OK && pia_refine_reached(fit);
     for (int k = 0; status == PIA_OK && k < CORRECTIONS && spared > 0 && !pia_refine_stopped(fit); k++) {
-        status = pia_refine_spare(fit, &spared);
+        status = is_weighed(fit) ? pia_refine_spare_lines(fit, &spared) : pia_refine_spare(fit, &spared);
         if (status == PIA_OK) status = pia_refine_count(fit);
         if ((fit->options.measure_distance == 0 && k >= fit->options.correct) || fit->iterate.project == NULL) break;
         if (status == PIA_OK) status = move_to_feet(fit);

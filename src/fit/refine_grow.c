@@ -6,23 +6,25 @@
 
 enum { MOST_PARTS = 8 };
 
+/* A row without weight says nothing. */
 double pia_refine_allowed(const pia_fit *fit, pia_index row)
 {
+    if (fit->weights != NULL && fit->weights[row] == 0) return INFINITY;
     return fit->tolerances != NULL ? fit->tolerances[row] : fit->options.tolerance;
 }
 
-static double row_ratio(const pia_fit *fit, pia_index row)
+double pia_refine_ratio(const pia_fit *fit, pia_index row, const double *deviation)
 {
-    const double *r = fit->iterate.residual + row * fit->dim;
     double square = 0;
-    for (int d = 0; d < fit->dim; d++) square += r[d] * r[d];
+    for (int d = 0; d < fit->dim; d++) square += deviation[d] * deviation[d];
     return sqrt(square) / pia_refine_allowed(fit, row);
 }
 
 double pia_refine_worst(const pia_fit *fit, pia_index begin, pia_index end)
 {
     double worst = 0;
-    for (pia_index row = begin; row < end; row++) worst = fmax(worst, row_ratio(fit, row));
+    for (pia_index row = begin; row < end; row++)
+        worst = fmax(worst, pia_refine_ratio(fit, row, fit->iterate.residual + row * fit->dim));
     return worst;
 }
 

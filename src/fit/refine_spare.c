@@ -1,7 +1,7 @@
 /* Sparing: knots are taken away, the cheapest first, each trial fitting a window anew towards the smallest largest deviation; then
  * pairs of knots are merged into one. A long curve is cut into segments that are thinned out side by side, the control points at the
  * cuts staying where they are; the next pass cuts elsewhere. The cuts depend on the number of control points alone. */
-#include "draft.h"
+#include "constraint.h"
 #include "kernel.h"
 #include "refine.h"
 #include "window.h"
@@ -71,11 +71,13 @@ static pia_index sweep(pia_draft *draft, int merge, candidate *order)
 typedef struct pass {
     pia_draft_data data;
     int degree, dim, closed, pinned;
-    pia_index count;           /* control points */
-    double *knots;             /* open: [count + degree + 1]; closed: one period [count] */
-    double *control;           /* [count x dim] */
-    unsigned char *mark;       /* as knots */
-    unsigned char *critical;   /* [rows] as in a draft; segments see different rows */
+    pia_index count;         /* control points */
+    double *knots;           /* open: [count + degree + 1]; closed: one period [count] */
+    double *control;         /* [count x dim] */
+    unsigned char *mark;     /* as knots */
+    unsigned char *critical; /* [rows] as in a draft; segments see different rows */
+    pia_draft_condition *condition;
+    double *condition_values;
     pia_index segments, batch; /* segments of this pass; the first of those at work */
     pia_index offset;          /* closed: control point at which the first segment begins */
     pia_draft *draft;          /* [segments] */
@@ -212,6 +214,9 @@ static pia_status open_pass(pia_fit *fit, pass *s)
     s->mark = pia_take_zero(context, knots, 1);
     s->critical = pia_take_zero(context, fit->rows, 1);
     if (s->knots == NULL || s->control == NULL || s->mark == NULL || s->critical == NULL) return PIA_E_MEMORY;
+    pia_status status = pia_refine_conditions(fit, &s->condition, &s->data.condition_count, &s->condition_values);
+    if (status != PIA_OK) return status;
+    s->data.condition = s->condition;
     memcpy(s->knots, fit->knots[0], (size_t)knots * sizeof(double));
     for (pia_index j = 1; j < knots; j++)
         if (s->knots[j] == s->knots[j - 1]) s->mark[j] = s->mark[j - 1] = PIA_DRAFT_KEPT; /* corners */
@@ -233,8 +238,12 @@ pia_status pia_refine_spare(pia_fit *fit, pia_index *spared)
     if (status == PIA_OK && *spared > 0) {
         status = pia_refine_install(fit, s.knots, s.count);
         if (status == PIA_OK) memcpy(fit->iterate.points, s.control, (size_t)(s.count * s.dim) * sizeof(double));
+        if (status == PIA_OK) status = pia_fit_bind(fit);
+        if (status == PIA_OK && fit->iterate.constraints != NULL) pia_constraints_finish(fit->iterate.constraints, fit->iterate.points);
         if (status == PIA_OK) pia_iterate_measure(&fit->iterate);
     }
+    pia_give(fit->context, s.condition);
+    pia_give(fit->context, s.condition_values);
     pia_give(fit->context, s.knots);
     pia_give(fit->context, s.control);
     pia_give(fit->context, s.mark);

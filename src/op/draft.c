@@ -148,10 +148,11 @@ static void put_whole(pia_draft *draft, const pia_window *w)
 static void find_rows(const pia_draft *draft, pia_window *w)
 {
     int p = draft->degree;
-    double begin = w->knots[draft->cyclic ? p : w->first], end = draft->cyclic ? begin + 1 : w->knots[w->first + w->free + p];
-    int open_end = !draft->cyclic && draft->stays[1] < p && end >= draft->knots[draft->count];
-    w->row = pia_draft_lower_row(draft->data, begin);
-    w->rows = (open_end && !draft->data->periodic ? draft->data->rows : pia_draft_lower_row(draft->data, end)) - w->row;
+    w->begin = w->knots[draft->cyclic ? p : w->first];
+    w->end = draft->cyclic ? w->begin + 1 : w->knots[w->first + w->free + p];
+    w->has_end = !draft->data->periodic && draft->stays[1] < p && w->end >= draft->knots[draft->count];
+    w->row = pia_draft_lower_row(draft->data, w->begin);
+    w->rows = (w->has_end ? draft->data->rows : pia_draft_lower_row(draft->data, w->end)) - w->row;
 }
 
 int pia_draft_replace(pia_draft *draft, pia_index first, int removed, const double *added, int inserted, int reach, int rounds)

@@ -8,6 +8,13 @@
 
 #include "context.h"
 
+/* What a curve is to meet exactly: its derivative of this order at the parameter. */
+typedef struct pia_draft_condition {
+    double parameter;
+    int order;
+    const double *value; /* [dim]; of order 0 relative to the origin */
+} pia_draft_condition;
+
 /* The data, borrowed: sorted parameters, and the inverse of what each row may deviate. */
 typedef struct pia_draft_data {
     const double *parameters, *points, *origin;
@@ -15,6 +22,8 @@ typedef struct pia_draft_data {
     double inverse_one;
     pia_index rows;
     int periodic; /* 1: rows repeat with period 1 in the parameter; row numbers are unrolled: any integer is one */
+    const pia_draft_condition *condition; /* [condition_count], parameters rising */
+    pia_index condition_count;
 } pia_draft_data;
 
 /* Marks of a knot. */
@@ -48,7 +57,7 @@ pia_index pia_draft_lower_row(const pia_draft_data *data, double t);
 
 /* Tries the curve with knots first .. first + removed - 1 replaced by `added` (inserted < removed of them, sorted, in the gap they
  * leave). The control points within `reach` of those knots are fitted anew (window.h), by at most `rounds` reweightings. Taken over
- * when no row deviates more than it may; else nothing changes. Returns 1 when taken over. */
+ * when no row deviates more than it may and all conditions are met; else nothing changes. Returns 1 when taken over. */
 int pia_draft_replace(pia_draft *draft, pia_index first, int removed, const double *added, int inserted, int reach, int rounds);
 
 #endif

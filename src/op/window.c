@@ -1,10 +1,9 @@
 /* Few rows decide a smallest largest deviation: as many as there are unknowns, and one more. So the reweighted fits see a few rows a
  * span, and a pass over all rows, at the speed of one polynomial a row, only says which ones were missing. */
-#include "window.h"
+#include "window_rows.h"
 
 #include "band.h"
 #include "basis.h"
-#include "dense.h"
 
 #include <math.h>
 #include <string.h>
@@ -17,25 +16,15 @@ enum { SAMPLE = 5, REMEMBERED = 16, GROUPS = 4, EXCHANGES = 6, SPARSE = 16, POLY
 /* What counts as kept, a little below 1: control points are rounded when they are put back. */
 static const double KEPT = 1 - 1e-9;
 
-/* The rows that take part, as arrays in the draft's work space. */
-typedef struct rows {
-    pia_index count, room;
-    double *value;   /* [room x (degree + 1)] basis values */
-    double *target;  /* [room x dim] */
-    double *inverse; /* [room] inverse tolerance */
-    double *weight;  /* [room] Lawson's */
-    int *first;      /* [room] index of the first control point */
-} rows;
-
 pia_index pia_draft_room(int degree, int dim, int reach)
 {
     pia_index spans = 2 * reach + 2 * degree + 4 + PIA_WINDOW_SHORT;
     return spans * (SAMPLE + REMEMBERED + GROUPS * EXCHANGES) * (degree + 1 + dim + 3);
 }
 
-static rows rows_in(const pia_draft *draft, pia_index room)
+static pia_rows rows_in(const pia_draft *draft, pia_index room)
 {
-    rows r = {.room = room, .value = draft->work};
+    pia_rows r = {.room = room, .value = draft->work};
     r.target = r.value + room * (draft->degree + 1);
     r.inverse = r.target + room * draft->dim;
     r.weight = r.inverse + room;
@@ -43,7 +32,7 @@ static rows rows_in(const pia_draft *draft, pia_index room)
     return r;
 }
 
-static void add_row(const pia_draft *draft, const pia_window *w, int span, pia_index row, double weight, rows *r)
+static void add_row(const pia_draft *draft, const pia_window *w, int span, pia_index row, double weight, pia_rows *r)
 {
     int p = draft->degree, dim = draft->dim;
     pia_index at, k = r->count++;
@@ -72,7 +61,7 @@ static void find_spans(const pia_draft *draft, const pia_window *w, pia_index *b
 }
 
 /* Critical rows among the unrolled rows from .. to - 1, every k-th where there are too many. */
-static void add_critical(const pia_draft *draft, const pia_window *w, int span, pia_index from, pia_index to, rows *r)
+static void add_critical(const pia_draft *draft, const pia_window *w, int span, pia_index from, pia_index to, pia_rows *r)
 {
     pia_index found[8 * REMEMBERED], count = 0, at;
     for (pia_index row = from; row < to && count < 8 * REMEMBERED;) {
@@ -90,7 +79,7 @@ static void add_critical(const pia_draft *draft, const pia_window *w, int span, 
     for (pia_index k = 0; k < count; k += step) add_row(draft, w, span, found[k], 1, r);
 }
 
-static void sample_rows(const pia_draft *draft, const pia_window *w, const pia_index *begin, int all, rows *r)
+static void sample_rows(const pia_draft *draft, const pia_window *w, const pia_index *begin, int all, pia_rows *r)
 {
     int p = draft->degree;
     for (int s = 0; s < w->count - p; s++) {
@@ -103,25 +92,14 @@ static void sample_rows(const pia_draft *draft, const pia_window *w, const pia_i
 
 /* ---- the reweighted fit ---- */
 
-static inline __attribute__((always_inline)) void difference_of(const rows *r, pia_index k, const double *points, int p, int dim,
-                                                                double *difference)
-{
-    const double *value = r->value + k * (p + 1), *point = points + (pia_index)r->first[k] * dim;
-    for (int d = 0; d < dim; d++) {
-        double sum = 0;
-        for (int i = 0; i <= p; i++) sum += value[i] * point[i * dim + d];
-        difference[d] = r->target[k * dim + d] - sum;
-    }
-}
-
 /* Normal equations of a piece: sums over all control points of the window, moving or not, in bands; those that stay are cut off. */
-static inline __attribute__((always_inline)) void sum_band(const pia_window *w, const rows *r, int p, int dim, double *h, double *b)
+static inline __attribute__((always_inline)) void sum_band(const pia_window *w, const pia_rows *r, int p, int dim, double *h, double *b)
 {
     for (pia_index k = 0; k < r->count; k++) {
         const double *value = r->value + k * (p + 1);
         double difference[PIA_MAX_DIM], weight = r->weight[k] * r->inverse[k] * r->inverse[k];
         double *h_row = h + (pia_index)r->first[k] * (p + 1), *b_row = b + (pia_index)r->first[k] * dim;
-        difference_of(r, k, w->point, p, dim, difference);
+        pia_row_difference(r, k, w->point, p, dim, difference);
         for (int i = 0; i <= p; i++) {
             double factor = weight * value[i];
             for (int j = i; j <= p; j++) h_row[i * (p + 1) + j - i] += factor * value[j];
@@ -131,12 +109,12 @@ static inline __attribute__((always_inline)) void sum_band(const pia_window *w, 
 }
 
 /* Squared ratios of all rows, and what Lawson's weights make of them. */
-static inline __attribute__((always_inline)) double judge(const pia_window *w, rows *r, int p, int dim, double *bound)
+static inline __attribute__((always_inline)) double judge(const pia_window *w, pia_rows *r, int p, int dim, double *bound)
 {
     double worst = 0, weighted = 0, total = 0, moved = 0;
     for (pia_index k = 0; k < r->count; k++) {
         double difference[PIA_MAX_DIM], square = 0;
-        difference_of(r, k, w->point, p, dim, difference);
+        pia_row_difference(r, k, w->point, p, dim, difference);
         for (int d = 0; d < dim; d++) square += difference[d] * difference[d];
         double ratio = sqrt(square) * r->inverse[k];
         weighted += r->weight[k] * ratio * ratio;
@@ -164,7 +142,7 @@ static inline __attribute__((always_inline)) double judge(const pia_window *w, r
             result call(w, r, p, dim, __VA_ARGS__);                                                                                    \
     } while (0)
 
-static void correct_piece(pia_window *w, const rows *r, int p, int dim)
+static void correct_piece(pia_window *w, const pia_rows *r, int p, int dim)
 {
     double h[PIA_WINDOW_CONTROL * (PIA_MAX_DEGREE + 1)], b[PIA_WINDOW_CONTROL * PIA_MAX_DIM];
     memset(h, 0, (size_t)(w->count * (p + 1)) * sizeof *h);
@@ -176,39 +154,17 @@ static void correct_piece(pia_window *w, const rows *r, int p, int dim)
     for (int i = 0; i < w->free * dim; i++) w->point[w->first * dim + i] += right[i];
 }
 
-static void correct_cyclic(pia_window *w, const rows *r, int p, int dim)
-{
-    double h[PIA_WINDOW_FREE * PIA_WINDOW_FREE], b[PIA_WINDOW_FREE * PIA_MAX_DIM], scratch[PIA_WINDOW_FREE * PIA_MAX_DIM];
-    pia_index order[PIA_WINDOW_FREE];
-    int n = w->free;
-    memset(h, 0, (size_t)(n * n) * sizeof *h);
-    memset(b, 0, (size_t)(n * dim) * sizeof *b);
-    for (pia_index k = 0; k < r->count; k++) {
-        const double *value = r->value + k * (p + 1);
-        int column = r->first[k];
-        double difference[PIA_MAX_DIM], weight = r->weight[k] * r->inverse[k] * r->inverse[k];
-        difference_of(r, k, w->point, p, dim, difference);
-        for (int i = 0; i <= p; i++) {
-            double factor = weight * value[i];
-            for (int j = 0; j <= p; j++) h[(column + i) % n * n + (column + j) % n] += factor * value[j];
-            for (int d = 0; d < dim; d++) b[(column + i) % n * dim + d] += factor * difference[d];
-        }
-    }
-    pia_index rank = pia_dense_cholesky(h, n, 1e-14, order);
-    pia_dense_cholesky_solve(h, n, rank, order, b, dim, scratch);
-    for (int i = 0; i < w->count; i++)
-        for (int d = 0; d < dim; d++) w->point[i * dim + d] += b[i % n * dim + d];
-}
-
 /* Rounds until the rows keep their tolerance, or the weighted root mean square proves that they cannot: no choice of the unknowns has
  * a smaller largest ratio. */
-static double fit_rows(pia_window *w, rows *r, int p, int dim, int cyclic, int rounds)
+static double fit_rows(pia_window *w, pia_rows *r, const pia_held *held, int p, int dim, int cyclic, int rounds)
 {
     double ratio = INFINITY;
     for (int round = 0; round <= rounds; round++) {
         double bound;
-        if (cyclic)
-            correct_cyclic(w, r, p, dim);
+        if (held->count > 0) {
+            if (!pia_window_correct_held(w, r, held, p, dim, cyclic)) return INFINITY;
+        } else if (cyclic)
+            pia_window_correct_cyclic(w, r, p, dim);
         else
             correct_piece(w, r, p, dim);
         PIA_UNROLL(ratio =, judge, p, dim, &bound);
@@ -309,7 +265,7 @@ static double worst_of(const pia_draft *draft, const pia_window *w, const piece 
 }
 
 /* Adds the worst rows of all spans that deviate too much. Returns the largest ratio. */
-static double exchange(const pia_draft *draft, const pia_window *w, const pia_index *begin, rows *r)
+static double exchange(const pia_draft *draft, const pia_window *w, const pia_index *begin, pia_rows *r)
 {
     int p = draft->degree;
     double worst = 0;
@@ -338,12 +294,15 @@ double pia_window_fit(pia_draft *draft, pia_window *w, int rounds)
 {
     int p = draft->degree, spans = w->count - p, all = w->rows <= (pia_index)spans * SPARSE;
     pia_index begin[PIA_WINDOW_CONTROL + 1];
-    rows r = rows_in(draft, (pia_index)spans * (SAMPLE + REMEMBERED + GROUPS * EXCHANGES));
+    pia_rows r = rows_in(draft, (pia_index)spans * (SAMPLE + REMEMBERED + GROUPS * EXCHANGES));
+    pia_held held;
+    if (!pia_window_hold(draft, w, &held)) return INFINITY;
     find_spans(draft, w, begin);
     sample_rows(draft, w, begin, all, &r);
     for (int k = 0; k < EXCHANGES; k++) {
-        double ratio = fit_rows(w, &r, p, draft->dim, draft->cyclic, rounds);
-        if (!(ratio <= 1) || all) return ratio;
+        double ratio = fit_rows(w, &r, &held, p, draft->dim, draft->cyclic, rounds);
+        if (!(ratio <= 1) || !pia_window_holds(w, &held, p, draft->dim)) return INFINITY;
+        if (all) return ratio;
         ratio = exchange(draft, w, begin, &r);
         if (ratio <= KEPT) return ratio;
     }

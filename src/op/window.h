@@ -18,6 +18,8 @@ typedef struct pia_window {
     double knots[PIA_WINDOW_KNOTS];
     double point[PIA_WINDOW_CONTROL * PIA_MAX_DIM];
     pia_index row, rows; /* data rows that moving control points touch, unrolled */
+    double begin, end;   /* parameters that they touch */
+    int has_end;         /* 1: `end` is among them: it is that of the curve */
 } pia_window;
 
 /* Moves the control points until no row deviates more than it may, if that can be had: least squares, reweighted towards the smallest

@@ -1,7 +1,7 @@
 /* Fits to a tolerance when memory runs out. */
 #include "failing.h"
 
-enum { ROWS = 9, COLUMNS = 40 };
+enum { ROWS = 7, COLUMNS = 40, LINES = 9 };
 
 typedef struct problem {
     pia_data data;
@@ -33,11 +33,12 @@ static problem grid_problem(void)
     problem p = curve_problem(0);
     p.data.kind = PIA_GRID;
     p.data.count[0] = ROWS;
-    p.data.count[1] = COLUMNS;
+    p.data.count[1] = LINES;
     p.data.dim = 3;
+    p.options.tolerance = 0.2;
     for (int i = 0; i < ROWS; i++)
-        for (int j = 0; j < COLUMNS; j++) {
-            double *q = p.points + 3 * (i * COLUMNS + j);
+        for (int j = 0; j < LINES; j++) {
+            double *q = p.points + 3 * (i * LINES + j);
             q[0] = i;
             q[1] = j;
             q[2] = sin(0.5 * i) * cos(0.3 * j);
@@ -83,11 +84,27 @@ static void a_surface_survives_every_failure(void **state)
     assert_survives_failures(fit, &p);
 }
 
+static void constraints_survive_every_failure(void **state)
+{
+    (void)state;
+    static const pia_index met[] = {0, 5, 11, 13, 20};
+    double weights[ROWS * COLUMNS];
+    for (int kind = 0; kind < 4; kind++) {
+        problem p = kind == 3 ? grid_problem() : curve_problem(kind == 1);
+        p.options.interpolate = met;
+        p.options.interpolate_count = 5;
+        for (int i = 0; i < ROWS * COLUMNS; i++) weights[i] = 1 + i % 3;
+        if (kind == 2) p.data.weights = weights;
+        assert_survives_failures(fit, &p);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_curve_survives_every_failure),
         cmocka_unit_test(a_curve_with_corners_survives_every_failure),
+        cmocka_unit_test(constraints_survive_every_failure),
         cmocka_unit_test(a_surface_survives_every_failure),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -1,0 +1,148 @@
+/* From least squares to a fit that keeps the tolerance on the same knots, where there is one: the residuals of all splines are a plane,
+ * those within the tolerance a product of balls, and Douglas and Rachford's iteration finds a point of both. A round costs a pass over
+ * the data and a solve with the factors at hand; a weighted fit towards the smallest largest deviation would need new ones. */
+#include "refine.h"
+
+#include "constraint.h"
+#include "kernel.h"
+
+#include <math.h>
+#include <string.h>
+
+/* Beyond FAR least squares is too far off. After k rounds a search that has not come below 1 + LATE 2^(-k / HALF) is given up: those
+ * that succeed mostly have. */
+static const double FAR = 1.7, LATE = 0.25, HALF = 10;
+enum { ROUNDS = 64, LOOK = 8, GRAIN = 4096, CHUNKS = 64 };
+
+/* Rounds times rows in one refinement: a few seconds. */
+static const double MOST = 1e8;
+
+/* Rows are brought a little inside of what they may deviate, so that the spline comes in with them. */
+static const double INSIDE = 0.999;
+
+/* Rows begin .. end - 1 of one round, and of the question how far the largest ratio is. */
+typedef struct round_work {
+    const pia_fit *fit;
+    double *x, *missing;
+    double worst[CHUNKS];
+    pia_index chunks;
+} round_work;
+
+/* x := x + b - a, b = the nearest to 2 a - x within the ball, a the residual; and what is missing from a to x. */
+static void reflect_chunk(void *work, pia_index chunk)
+{
+    const round_work *w = work;
+    const double *a = w->fit->iterate.residual;
+    int dim = w->fit->dim;
+    for (pia_index row = pia_chunk_begin(w->fit->rows, w->chunks, chunk); row < pia_chunk_begin(w->fit->rows, w->chunks, chunk + 1);
+         row++) {
+        double reflected[PIA_MAX_DIM];
+        for (int d = 0; d < dim; d++) reflected[d] = 2 * a[row * dim + d] - w->x[row * dim + d];
+        double ratio = pia_refine_ratio(w->fit, row, reflected) / INSIDE, factor = ratio > 1 ? 1 / ratio : 1;
+        for (int d = 0; d < dim; d++) {
+            pia_index at = row * dim + d;
+            w->x[at] += factor * reflected[d] - a[at];
+            w->missing[at] = a[at] - w->x[at];
+        }
+    }
+}
+
+static void worst_chunk(void *work, pia_index chunk)
+{
+    round_work *w = work;
+    w->worst[chunk] =
+        pia_refine_worst(w->fit, pia_chunk_begin(w->fit->rows, w->chunks, chunk), pia_chunk_begin(w->fit->rows, w->chunks, chunk + 1));
+}
+
+static double worst_of(round_work *w)
+{
+    double worst = 0;
+    pia_for_each(w->fit->context, w->chunks, worst_chunk, w);
+    for (pia_index k = 0; k < w->chunks; k++) worst = fmax(worst, w->worst[k]);
+    return worst;
+}
+
+/* The spline whose residuals are nearest to x. */
+static pia_status project(pia_fit *fit, const double *missing)
+{
+    pia_iterate *iterate = &fit->iterate;
+    pia_index size = fit->op->cols * fit->dim;
+    pia_status status = PIA_OK;
+    pia_op_gather(fit->op, missing, fit->op->weights, fit->dim, iterate->adjust);
+    iterate->normal->class->solve(iterate->normal, iterate->adjust, fit->dim);
+    pia_op_mask(fit->op, iterate->adjust, fit->dim);
+    if (iterate->constraints != NULL)
+        status = pia_constraints_correct(iterate->constraints, iterate->normal, iterate->points, iterate->adjust);
+    for (pia_index i = 0; i < size; i++) iterate->points[i] += iterate->adjust[i];
+    iterate->errors_known = 0;
+    pia_iterate_measure(iterate);
+    return status;
+}
+
+/* From least squares, or from where the fit before it, on more knots, came to. */
+static pia_status search(pia_fit *fit, double *x, double *missing)
+{
+    round_work w = {.fit = fit, .x = x, .missing = missing, .chunks = pia_chunk_count(fit->rows, GRAIN)};
+    pia_index size = fit->rows * fit->dim, k = 0;
+    const double *a = fit->iterate.residual;
+    pia_status status = PIA_OK;
+    if (w.chunks > CHUNKS) w.chunks = CHUNKS;
+    memcpy(x, fit->relaxed != NULL ? fit->relaxed : a, (size_t)size * sizeof *x);
+    if (fit->relaxed != NULL) {
+        for (pia_index i = 0; i < size; i++) missing[i] = a[i] - x[i];
+        status = project(fit, missing);
+    }
+    double ratio = worst_of(&w), best = ratio;
+    if (ratio > FAR) return status;
+    for (; k < ROUNDS && status == PIA_OK && ratio > 1; k++) {
+        if (k > 0 && k % LOOK == 0 && best > 1 + LATE * exp2(-(double)k / HALF)) break;
+        pia_for_each(fit->context, w.chunks, reflect_chunk, &w);
+        status = project(fit, missing);
+        ratio = worst_of(&w);
+        best = fmin(best, ratio);
+    }
+    fit->relaxation += (double)k * (double)fit->rows;
+    return status;
+}
+
+/* What the next search begins with. */
+static void keep(pia_fit *fit, double *x)
+{
+    pia_give(fit->context, fit->relaxed);
+    fit->relaxed = x;
+}
+
+pia_status pia_refine_relax(pia_fit *fit)
+{
+    pia_index size = fit->op->cols * fit->dim, rows = fit->rows * fit->dim;
+    if (pia_refine_reached(fit) || fit->relaxation > MOST || fit->weights != NULL || fit->options.fairing > 0) return PIA_OK;
+    if (fit->factored == 0) {
+        pia_status status = pia_refine_factor(fit);
+        if (status != PIA_OK) return status;
+    }
+    if (fit->factored < 2) return PIA_OK;
+    double *x = pia_take(fit->context, rows, sizeof *x), *missing = pia_take(fit->context, rows, sizeof *missing);
+    double *before = pia_take(fit->context, size, sizeof *before);
+    pia_status status = x != NULL && missing != NULL && before != NULL ? PIA_OK : PIA_E_MEMORY;
+    int kept = 0;
+    if (status == PIA_OK) {
+        memcpy(before, fit->iterate.points, (size_t)size * sizeof *before);
+        status = search(fit, x, missing);
+        if (status == PIA_OK && fit->iterate.constraints != NULL) pia_constraints_finish(fit->iterate.constraints, fit->iterate.points);
+        fit->iterate.errors_known = 0;
+        pia_iterate_measure(&fit->iterate);
+        kept = status == PIA_OK && pia_refine_reached(fit);
+    }
+    if (kept) {
+        keep(fit, x);
+        x = NULL;
+    } else if (status == PIA_OK) {
+        memcpy(fit->iterate.points, before, (size_t)size * sizeof *before);
+        fit->iterate.errors_known = 0;
+        pia_iterate_measure(&fit->iterate);
+    }
+    pia_give(fit->context, x);
+    pia_give(fit->context, missing);
+    pia_give(fit->context, before);
+    return status;
+}

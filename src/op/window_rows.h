@@ -1,0 +1,45 @@
+/* Inside a window: the rows that take part in a fit of it, and the conditions that it is to meet. */
+#ifndef PIA_OP_WINDOW_ROWS_H
+#define PIA_OP_WINDOW_ROWS_H
+
+#include "window.h"
+
+/* Rows, as arrays in the draft's work space. */
+typedef struct pia_rows {
+    pia_index count, room;
+    double *value;   /* [room x (degree + 1)] basis values */
+    double *target;  /* [room x dim] */
+    double *inverse; /* [room] inverse tolerance */
+    double *weight;  /* [room] Lawson's */
+    int *first;      /* [room] index of the first control point */
+} pia_rows;
+
+static inline __attribute__((always_inline)) void pia_row_difference(const pia_rows *r, pia_index k, const double *points, int p,
+                                                                     int dim, double *difference)
+{
+    const double *value = r->value + k * (p + 1), *point = points + (pia_index)r->first[k] * dim;
+    for (int d = 0; d < dim; d++) {
+        double sum = 0;
+        for (int i = 0; i <= p; i++) sum += value[i] * point[i * dim + d];
+        difference[d] = r->target[k * dim + d] - sum;
+    }
+}
+
+/* Conditions that moving control points touch, scaled to absolute sum 1. */
+typedef struct pia_held {
+    int count;
+    int first[PIA_WINDOW_FREE];                           /* index of the first control point */
+    double value[PIA_WINDOW_FREE * (PIA_MAX_DEGREE + 1)]; /* [count x (degree + 1)] */
+    double right[PIA_WINDOW_FREE * PIA_MAX_DIM];          /* [count x dim] */
+} pia_held;
+
+/* The conditions of a window. Returns 0 when they are more than its unknowns. */
+int pia_window_hold(const pia_draft *draft, const pia_window *window, pia_held *held);
+/* Moves the control points to the weighted least-squares fit of the rows: of a cyclic window; and of any window such that the
+ * conditions are met. The latter returns 0, and moves nothing, when they cannot be. */
+void pia_window_correct_cyclic(pia_window *window, const pia_rows *rows, int degree, int dim);
+int pia_window_correct_held(pia_window *window, const pia_rows *rows, const pia_held *held, int degree, int dim, int cyclic);
+/* Whether the control points meet the conditions. */
+int pia_window_holds(const pia_window *window, const pia_held *held, int degree, int dim);
+
+#endif
