@@ -6,6 +6,7 @@
 #include "json_writer.h"
 #include "model_source.h"
 #include "number_file.h"
+#include "write_options.h"
 
 /* What may be done to a model, in the order in which the command line asks for it. */
 enum step_kind { REFINE, INSERT, ELEVATE, REMOVE, SPLIT, BEZIER, UNTRIM };
@@ -23,7 +24,8 @@ struct request {
     struct texts outputs;
     struct step step[MOST_STEPS];
     int steps;
-    pia_index samples, part;
+    pia_write_options options;
+    pia_index part;
 };
 
 enum {
@@ -68,7 +70,7 @@ static error_t parse_file(struct request *request, int key, char *arg)
 {
     switch (key) {
     case 'o': session_append(request->session, &request->outputs, arg); return 0;
-    case KEY_SAMPLES: return option_count("--samples", arg, 2, &request->samples);
+    case KEY_SAMPLES: return option_count("--samples", arg, 2, &request->options.samples);
     case KEY_PART: return option_count("--part", arg, 0, &request->part);
     case KEY_FORMAT: request->output_format = arg; return 0;
     case KEY_INPUT_FORMAT: request->input_format = arg; return 0;
@@ -87,7 +89,10 @@ static error_t parse(int key, char *arg, struct argp_state *state)
     case KEY_SPLIT: return add_step(request, SPLIT, "--split", arg);
     case KEY_BEZIER: return add_step(request, BEZIER, "--bezier", "");
     case KEY_UNTRIM: return add_step(request, UNTRIM, "--untrim", "");
-    case ARGP_KEY_INIT: state->child_inputs[0] = request->session; return 0;
+    case ARGP_KEY_INIT:
+        state->child_inputs[0] = &request->options;
+        state->child_inputs[1] = request->session;
+        return 0;
     case ARGP_KEY_ARG:
         if (request->model) return usage_error("one model at a time; '%s' is one too many", arg);
         request->model = arg;
@@ -99,7 +104,7 @@ static error_t parse(int key, char *arg, struct argp_state *state)
     }
 }
 
-static const struct argp_child children[] = {{&common_argp, 0, NULL, 0}, {0}};
+static const struct argp_child children[] = {{&write_options_argp, 0, NULL, 0}, {&common_argp, 0, NULL, 0}, {0}};
 static const char manual[] = "A model in another format, and the same shape with other knots or another degree.\v"
                              "Examples:\n"
                              "  pia convert model.json -o model.igs\n"
@@ -244,10 +249,11 @@ static int write_all(struct request *request, pia_model **models, pia_index coun
     struct session *session = request->session;
     int code = EXIT_DONE, piped = 0;
     for (pia_index i = 0; !code && i < request->outputs.count; i++) {
-        const char *path = request->outputs.item[i], *format = format_to_write(request, path);
+        const char *path = request->outputs.item[i];
+        request->options.format = format_to_write(request, path);
         piped |= strcmp(path, "-") == 0;
         code = session_check(
-            session, pia_model_write(session->context, path, format, (const pia_model *const *)models, count, request->samples), path);
+            session, pia_model_write_as(session->context, path, (const pia_model *const *)models, count, &request->options), path);
     }
     if (!code && session->json && !piped) json_outputs(stdout, &request->outputs);
     return code;
@@ -276,7 +282,8 @@ static int convert(struct request *request, const struct model_set *set)
 
 int cmd_convert(struct session *session, int argc, char **argv)
 {
-    struct request request = {.session = session, .samples = PIA_AUTO, .part = PIA_AUTO};
+    struct request request = {.session = session, .part = PIA_AUTO};
+    pia_write_options_init(&request.options);
     struct model_set models = {0};
     int code = arguments_parse(session, "convert", &argp, argc, argv, &request);
     for (pia_index i = 0; !code && i < request.outputs.count; i++) code = output_check(request.outputs.item[i]);

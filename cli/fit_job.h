@@ -23,6 +23,7 @@ struct fit_request {
     const char *format; /* --format: of the file that it turns out to mean */
     const char *output_format;
     struct texts outputs; /* -o */
+    pia_write_options writing;
     const char *report, *trace, *checkpoint, *resume;
     struct texts levels; /* numbers as written */
     int levels_are_iterations;

@@ -1,6 +1,7 @@
 #include <string.h>
 
 #include "fit_job.h"
+#include "write_options.h"
 
 enum {
     KEY_CURVE = 0x400,
@@ -330,7 +331,8 @@ static error_t parse_whole(int key, char *arg, struct argp_state *state)
     case ARGP_KEY_INIT:
         for (int i = 1; i <= 5; i++) state->child_inputs[i] = request;
         state->child_inputs[0] = &request->source;
-        state->child_inputs[6] = request->session;
+        state->child_inputs[6] = &request->writing;
+        state->child_inputs[7] = request->session;
         return 0;
     case ARGP_KEY_ARG:
         if (request->source.path) return usage_error("only one file of points can be fitted; '%s' is one too many", arg);
@@ -347,9 +349,9 @@ static const struct argp condition_argp = {condition_options, parse_condition, N
 static const struct argp method_argp = {method_options, parse_method, NULL, NULL, NULL, NULL, NULL};
 static const struct argp output_argp = {output_options, parse_output, NULL, NULL, NULL, NULL, NULL};
 
-static const struct argp_child children[] = {
-    {&point_source_argp, 0, NULL, 0}, {&model_argp, 0, NULL, 0},  {&goal_argp, 0, NULL, 0},   {&condition_argp, 0, NULL, 0},
-    {&method_argp, 0, NULL, 0},       {&output_argp, 0, NULL, 0}, {&common_argp, 0, NULL, 0}, {0}};
+static const struct argp_child children[] = {{&point_source_argp, 0, NULL, 0},  {&model_argp, 0, NULL, 0},  {&goal_argp, 0, NULL, 0},
+                                             {&condition_argp, 0, NULL, 0},     {&method_argp, 0, NULL, 0}, {&output_argp, 0, NULL, 0},
+                                             {&write_options_argp, 0, NULL, 0}, {&common_argp, 0, NULL, 0}, {0}};
 
 static const char manual[] =
     "Fit a B-spline curve or surface to points.\v"
@@ -381,6 +383,7 @@ int fit_request_parse(struct fit_request *request, struct session *session, int 
 {
     *request = (struct fit_request){.session = session};
     pia_fit_options_init(&request->options);
+    pia_write_options_init(&request->writing);
     point_source_init(&request->source, session);
     int code = arguments_parse(session, "fit", &fit_argp, argc, argv, request);
     if (!code && request->format) apply_format(request);

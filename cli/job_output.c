@@ -62,9 +62,10 @@ static pia_status draw(struct fit_job *job, const char *path, const char *format
 
 static int write_models(struct fit_job *job, const char *path, const char *format, const pia_model *const *models)
 {
-    pia_status status = is_picture(path, format)
-                            ? draw(job, path, format, models)
-                            : pia_model_write(job->session->context, path, format, models, job->part_done, PIA_AUTO);
+    pia_write_options options = job->request->writing;
+    options.format = format;
+    pia_status status = is_picture(path, format) ? draw(job, path, format, models)
+                                                 : pia_model_write_as(job->session->context, path, models, job->part_done, &options);
     int code = session_check(job->session, status, path);
     if (!code) session_append(job->session, &job->outputs, path);
     return code;

@@ -409,6 +409,28 @@ void pia_models_destroy(pia_model **models, pia_index count);
  * PIA_AUTO: enough for a picture. */
 pia_status pia_model_write(pia_context *context, const char *path, const char *format, const pia_model *const *models, pia_index count,
                            pia_index samples);
+/* What a length of 1 in a model means to a CAD system. */
+typedef enum pia_unit { PIA_UNIT_MILLIMETRE, PIA_UNIT_METRE, PIA_UNIT_INCH } pia_unit;
+/* Application protocols of STEP. */
+typedef enum pia_step_schema { PIA_STEP_AP214, PIA_STEP_AP242 } pia_step_schema;
+
+/* How models are written; formats leave aside what does not concern them. */
+typedef struct pia_write_options {
+    size_t struct_size;
+    const char *format;          /* a name of the registry "format"; NULL: by extension */
+    pia_index samples;           /* a direction, in formats that hold samples; default PIA_AUTO: enough for a picture */
+    pia_unit unit;               /* STEP, IGES; default millimetres */
+    pia_step_schema step_schema; /* default AP214 */
+    double tolerance;            /* STEP, IGES: distance below which points are the same, > 0, in that unit; PIA_AUTO: 1e-7, and 1e-7 of
+                                    the size where that is below 1 */
+    const char *name;            /* STEP, IGES: of the part; NULL: of the file, without folder and extension */
+} pia_write_options;
+
+/* The defaults named at the members. */
+void pia_write_options_init(pia_write_options *options);
+/* pia_model_write with all there is to choose; options NULL: the defaults. Errors: PIA_E_ARGUMENT, FILE, MEMORY, SHAPE. */
+pia_status pia_model_write_as(pia_context *context, const char *path, const pia_model *const *models, pia_index count,
+                              const pia_write_options *options);
 /* Whether pia_model_write knows how to write such a file, so that a wrong name can be refused before the work. Errors: PIA_E_ARGUMENT.
  */
 pia_status pia_model_write_check(pia_context *context, const char *path, const char *format);

@@ -1,6 +1,8 @@
 #include "io.h"
 #include "options.h"
 
+#include <math.h>
+#include <stdio.h>
 #include <string.h>
 
 void pia_points_options_init(pia_points_options *options)
@@ -135,23 +137,71 @@ pia_status pia_model_write_check(pia_context *context, const char *path, const c
     return find_writer(context, path, format, &writer);
 }
 
-pia_status pia_model_write(pia_context *context, const char *path, const char *format, const pia_model *const *models, pia_index count,
-                           pia_index samples)
+void pia_write_options_init(pia_write_options *options)
 {
-    if (path == NULL || models == NULL || count < 1)
-        return pia_fail(context, PIA_E_ARGUMENT, "a path and at least one model are needed");
-    for (pia_index k = 0; k < count; k++)
-        if (models[k] == NULL) return pia_fail(context, PIA_E_ARGUMENT, "model %lld is NULL", (long long)k);
+    *options = (pia_write_options){.struct_size = sizeof *options, .samples = PIA_AUTO, .tolerance = PIA_AUTO};
+}
+
+static pia_status check_write_options(pia_context *context, const pia_write_options *options)
+{
+    if (options->unit < PIA_UNIT_MILLIMETRE || options->unit > PIA_UNIT_INCH)
+        return pia_fail(context, PIA_E_ARGUMENT, "unit %d; choose a PIA_UNIT", (int)options->unit);
+    if (options->step_schema < PIA_STEP_AP214 || options->step_schema > PIA_STEP_AP242)
+        return pia_fail(context, PIA_E_ARGUMENT, "schema %d; choose PIA_STEP_AP214 or PIA_STEP_AP242", (int)options->step_schema);
+    if (options->tolerance != PIA_AUTO && !(options->tolerance > 0 && isfinite(options->tolerance)))
+        return pia_fail(context, PIA_E_ARGUMENT, "tolerance %g; it must be finite and above 0", options->tolerance);
+    return PIA_OK;
+}
+
+/* A file's name without folder and extension. */
+static void stem_of(const char *path, char stem[64])
+{
+    const char *slash = strrchr(path, '/'), *name = slash != NULL ? slash + 1 : path, *dot = strrchr(name, '.');
+    int length = dot != NULL && dot > name ? (int)(dot - name) : (int)strlen(name);
+    snprintf(stem, 64, "%.*s", length, strcmp(path, "-") != 0 ? name : "model");
+}
+
+static pia_status write_models(pia_context *context, const char *path, const pia_model *const *models, pia_index count,
+                               const pia_write_options *options)
+{
     const pia_format *writer;
-    pia_status status = find_writer(context, path, format, &writer);
+    pia_status status = find_writer(context, path, options->format, &writer);
     if (status != PIA_OK) return status;
     pia_output *output;
     status = pia_output_open(context, path, &output);
     if (status != PIA_OK) return status;
-    status = writer->write_models(context, output, models, count, samples);
+    status = writer->write_models(context, output, models, count, options);
     if (status == PIA_OK) return pia_output_commit(output);
     pia_output_abandon(output);
     return status;
+}
+
+pia_status pia_model_write_as(pia_context *context, const char *path, const pia_model *const *models, pia_index count,
+                              const pia_write_options *options)
+{
+    char stem[64];
+    pia_write_options o;
+    pia_write_options_init(&o);
+    pia_status status = pia_options_read(context, "pia_write_options", &o, sizeof o, options);
+    if (status == PIA_OK) status = check_write_options(context, &o);
+    if (status != PIA_OK) return status;
+    if (path == NULL || models == NULL || count < 1)
+        return pia_fail(context, PIA_E_ARGUMENT, "a path and at least one model are needed");
+    for (pia_index k = 0; k < count; k++)
+        if (models[k] == NULL) return pia_fail(context, PIA_E_ARGUMENT, "model %lld is NULL", (long long)k);
+    stem_of(path, stem);
+    if (o.name == NULL) o.name = stem;
+    return write_models(context, path, models, count, &o);
+}
+
+pia_status pia_model_write(pia_context *context, const char *path, const char *format, const pia_model *const *models, pia_index count,
+                           pia_index samples)
+{
+    pia_write_options options;
+    pia_write_options_init(&options);
+    options.format = format;
+    options.samples = samples;
+    return pia_model_write_as(context, path, models, count, &options);
 }
 
 void pia_models_destroy(pia_model **models, pia_index count)

@@ -3,6 +3,7 @@
 #include "number.h"
 
 #include <math.h>
+#include <stdio.h>
 #include <string.h>
 
 pia_status pia_cad_check(pia_context *context, const char *format, const pia_model *const *models, pia_index count)
@@ -55,7 +56,7 @@ static double distance(const pia_model *model, pia_index i, pia_index j)
     return sqrt(square);
 }
 
-static double size_of(const pia_model *model)
+double pia_cad_size(const pia_model *model)
 {
     double size = 0;
     pia_index count = model->control[0] * model->control[1];
@@ -63,10 +64,28 @@ static double size_of(const pia_model *model)
     return size;
 }
 
+void pia_cad_name(const pia_write_options *options, pia_index index, pia_index count, char name[PIA_CAD_NAME_SIZE])
+{
+    enum { NUMBER = 21 };
+    int used = snprintf(name, PIA_CAD_NAME_SIZE - NUMBER, "%s", options->name);
+    if (used >= PIA_CAD_NAME_SIZE - NUMBER) used = PIA_CAD_NAME_SIZE - NUMBER - 1;
+    for (char *c = name; *c != '\0'; c++)
+        if (*c < ' ' || *c > '~' || strchr("'\\,;", *c) != NULL) *c = '_';
+    if (count > 1) snprintf(name + used, NUMBER, " %lld", (long long)index + 1);
+}
+
+double pia_cad_tolerance(const pia_write_options *options, const pia_model *const *models, pia_index count)
+{
+    double size = 0;
+    if (options->tolerance > 0) return options->tolerance;
+    for (pia_index i = 0; i < count; i++) size = fmax(size, pia_cad_size(models[i]));
+    return size > 0 && size < 1 ? 1e-7 * size : 1e-7;
+}
+
 int pia_cad_is_closed(const pia_model *model, int direction)
 {
     pia_index lines = model->control[direction], other = model->control[1 - direction], stride = direction == 0 ? model->control[1] : 1;
-    double near = 1e-12 * size_of(model);
+    double near = 1e-12 * pia_cad_size(model);
     for (pia_index k = 0; k < (model->directions == 1 ? 1 : other); k++) {
         pia_index first = k * (direction == 0 ? 1 : model->control[1]);
         if (distance(model, first, first + (lines - 1) * stride) > near) return 0;
@@ -78,7 +97,7 @@ int pia_cad_is_degenerate(const pia_model *model, int along, int last)
 {
     pia_index count = model->control[along], stride = along == 0 ? model->control[1] : 1;
     pia_index across = along == 0 ? 1 : model->control[1], first = last ? (model->control[1 - along] - 1) * across : 0;
-    double near = 1e-12 * size_of(model);
+    double near = 1e-12 * pia_cad_size(model);
     for (pia_index k = 1; k < count; k++)
         if (distance(model, first, first + k * stride) > near) return 0;
     return 1;

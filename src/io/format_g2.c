@@ -35,10 +35,10 @@ static void write_model(pia_output *output, const pia_model *model)
 }
 
 static pia_status write_models(pia_context *context, pia_output *output, const pia_model *const *models, pia_index count,
-                               pia_index samples)
+                               const pia_write_options *options)
 {
     (void)context;
-    (void)samples;
+    (void)options;
     for (pia_index i = 0; i < count; i++) write_model(output, models[i]);
     return PIA_OK;
 }

@@ -105,14 +105,14 @@ static pia_status write_table(pia_context *context, pia_output *output, const ch
 
 /* The samples alone: [n x dim] of a curve, [n x m x dim] of a surface. */
 static pia_status write_models(pia_context *context, pia_output *output, const pia_model *const *models, pia_index count,
-                               pia_index samples)
+                               const pia_write_options *options)
 {
     if (count > 1)
         return pia_fail(context, PIA_E_SHAPE, "an NPY file holds one model, not %lld; write them to files of their own",
                         (long long)count);
     double *parameters, *points;
     pia_index size[2];
-    pia_status status = pia_model_sample(context, models[0], samples, &parameters, &points, size);
+    pia_status status = pia_model_sample(context, models[0], options->samples, &parameters, &points, size);
     if (status != PIA_OK) return status;
     int dim = models[0]->dim, surface = models[0]->directions == 2;
     pia_npy_write_header(output, surface ? (pia_index[]){size[0], size[1], dim} : (pia_index[]){size[0], dim, 0}, surface ? 3 : 2);

@@ -89,7 +89,7 @@ static void write_elements(pia_output *output, pia_index base, const pia_index s
 }
 
 static pia_status write_models(pia_context *context, pia_output *output, const pia_model *const *models, pia_index count,
-                               pia_index samples)
+                               const pia_write_options *options)
 {
     pia_index base = 0;
     for (pia_index k = 0; k < count; k++) {
@@ -98,7 +98,7 @@ static pia_status write_models(pia_context *context, pia_output *output, const p
         pia_index size[2];
         if (model->dim > 3)
             return pia_fail(context, PIA_E_SHAPE, "OBJ holds at most 3 components, the model has %d; write another format", model->dim);
-        pia_status status = pia_model_sample(context, model, samples, &parameters, &points, size);
+        pia_status status = pia_model_sample(context, model, options->samples, &parameters, &points, size);
         if (status != PIA_OK) return status;
         char *inside;
         status = find_inside(context, model, parameters, size[0] * size[1], &inside);

@@ -86,7 +86,7 @@ static void write_sample_header(pia_output *output, const pia_model *model)
 
 /* Rows u[,v],x,y,z; a blank line between models. */
 static pia_status write_models(pia_context *context, pia_output *output, const pia_model *const *models, pia_index count,
-                               pia_index samples)
+                               const pia_write_options *options)
 {
     for (pia_index k = 0; k < count; k++) {
         const pia_model *model = models[k];
@@ -95,7 +95,7 @@ static pia_status write_models(pia_context *context, pia_output *output, const p
         if (k > 0 && (model->dim != models[0]->dim || model->directions != models[0]->directions))
             return pia_fail(context, PIA_E_SHAPE,
                             "model %lld differs from the first in kind or dimension; write them to files of their own", (long long)k);
-        pia_status status = pia_model_sample(context, model, samples, &parameters, &points, size);
+        pia_status status = pia_model_sample(context, model, options->samples, &parameters, &points, size);
         if (status != PIA_OK) return status;
         if (k == 0)
             write_sample_header(output, model);

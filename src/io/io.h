@@ -64,7 +64,7 @@ typedef struct pia_format {
     pia_status (*read_points)(pia_context *context, const pia_input *input, const pia_points_options *options, pia_points *out);
     pia_status (*read_models)(pia_context *context, const pia_input *input, pia_model ***out, pia_index *count);
     pia_status (*write_models)(pia_context *context, pia_output *output, const pia_model *const *models, pia_index count,
-                               pia_index samples);
+                               const pia_write_options *options); /* whole; the name is never NULL */
     pia_status (*write_table)(pia_context *context, pia_output *output, const char *header, const double *values, pia_index rows,
                               int columns);
 } pia_format; /* a NULL entry: the format cannot do that. Readers leave `out` as it was on failure, apart from what

@@ -21,9 +21,9 @@ int pia_json_read_fit(const pia_memory *memory, const json_t *fit, pia_summary *
 /* ', "trims": {...}', a member of the surface's object that is not its first. */
 void pia_json_write_trim(pia_output *output, const pia_trim *trim);
 
-/* The writer of the format; samples is not used. */
+/* The writer of the format; options are not used. */
 pia_status pia_json_write_models(pia_context *context, pia_output *output, const pia_model *const *models, pia_index count,
-                                 pia_index samples);
+                                 const pia_write_options *options);
 
 /* What a reader of one model knows about where it is. */
 typedef struct pia_json_place {

@@ -108,9 +108,9 @@ static void write_memory(pia_output *output, const pia_model *model)
 }
 
 pia_status pia_json_write_models(pia_context *context, pia_output *output, const pia_model *const *models, pia_index count,
-                                 pia_index samples)
+                                 const pia_write_options *options)
 {
-    (void)samples;
+    (void)options;
     for (pia_index k = 1; k < count; k++)
         if (models[k]->directions != models[0]->directions)
             return pia_fail(context, PIA_E_SHAPE, "model %lld is a %s, the first is not; write them to files of their own",
