@@ -58,7 +58,7 @@ static const struct argp argp = {options, parse, "FILE", manual, children, NULL,
 /* Formats that hold nothing but models; all others are points unless --model says otherwise. */
 static int is_model(const struct request *request)
 {
-    static const char *const formats[] = {"json", "igs", "iges", "stp", "step", "g2"};
+    static const char *const formats[] = {"json", "igs", "iges", "stp", "step", "brep", "brp", "g2"};
     const char *path = request->source.path, *name = request->format ? request->format : extension_of(path);
     if (request->as != BY_NAME) return request->as == MODEL;
     if (strcmp(path, "-") == 0 && !request->format) return stdin_peek() == '{';

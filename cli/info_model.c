@@ -53,7 +53,7 @@ static void print_text(const pia_model *model, const struct figures *figures)
     for (int k = 0; k < info->dim; k++)
         printf("%-12s %d: %.10g to %.10g\n", k ? "" : "bounds", k + 1, figures->low[k], figures->high[k]);
     pia_index loops = pia_model_trim_loop_count(model);
-    if (loops > 0) printf("trimmed      to one face with %lld holes\n", (long long)loops - 1);
+    if (loops > 0) printf("trim loops   %lld, holes among them %lld\n", (long long)loops, (long long)loops - 1);
     if (info->directions == 1) printf("length       %.12g\n", figures->length);
     if (figures->fitted) print_report(&figures->report);
     const char *note;

@@ -4,6 +4,7 @@
 #include "kernel.h"
 #include "limit.h"
 #include "method.h"
+#include "occt.h"
 #include "param.h"
 #include "place.h"
 
@@ -31,15 +32,28 @@ static int list_limiters(pia_index index, pia_entry *out)
     return l != NULL && fill(out, l->name, l->title, l->reference, l->detail);
 }
 
+/* A format as this installation can handle it. */
+static int list_formats(pia_index index, pia_entry *out)
+{
+    const pia_format *f = pia_format_list(index);
+    if (f == NULL) return 0;
+    const char *detail = f->detail;
+    if (f->reads_by_plugin && !pia_occt_is_there())
+        detail = f->write_models != NULL ? "writes curves, surfaces and trimmed faces, exact to the bit; reading needs the part occt"
+                                         : "reading needs the part occt";
+    return fill(out, f->name, f->title, f->reference, detail);
+}
+
 /* Optional parts, and whether this build has them. */
 static int list_parts(pia_index index, pia_entry *out)
 {
-    static const struct {
+    const struct {
         const char *name, *title;
         int here;
     } part[] = {
         {"cairo", "pictures as SVG, PNG and PDF", PIA_HAVE_CAIRO},
         {"cholmod", "sparse Cholesky for scattered surfaces", PIA_HAVE_CHOLMOD},
+        {"occt", "STEP, IGES and BREP read by OpenCASCADE, a plug-in", pia_occt_is_there()},
     };
     if (index >= (pia_index)(sizeof part / sizeof *part)) return 0;
     return fill(out, part[index].name, part[index].title, NULL, part[index].here ? "in this build" : "not in this build");
@@ -63,10 +77,7 @@ int pia_list(const char *registry, pia_index index, pia_entry *out)
         const pia_placement *p = pia_place_list(index);
         return p != NULL && fill(out, p->name, p->title, p->reference, p->detail);
     }
-    if (strcmp(registry, "format") == 0) {
-        const pia_format *f = pia_format_list(index);
-        return f != NULL && fill(out, f->name, f->title, f->reference, f->detail);
-    }
+    if (strcmp(registry, "format") == 0) return list_formats(index, out);
     if (strcmp(registry, "backend") == 0) {
         const pia_kernel *k = pia_kernel_list(index);
         return k != NULL && fill(out, k->name, k->title, NULL, NULL);

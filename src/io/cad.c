@@ -82,15 +82,33 @@ double pia_cad_tolerance(const pia_write_options *options, const pia_model *cons
     return size > 0 && size < 1 ? 1e-7 * size : 1e-7;
 }
 
-int pia_cad_is_closed(const pia_model *model, int direction)
+/* First and last line of control points across `direction`, in pairs: whether `differ` finds none that differs by more than near. */
+static int ends_agree(const pia_model *model, int direction, double (*differ)(const pia_model *, pia_index, pia_index), double near)
 {
-    pia_index lines = model->control[direction], other = model->control[1 - direction], stride = direction == 0 ? model->control[1] : 1;
-    double near = 1e-12 * pia_cad_size(model);
-    for (pia_index k = 0; k < (model->directions == 1 ? 1 : other); k++) {
+    pia_index other = model->directions == 1 ? 1 : model->control[1 - direction], stride = direction == 0 ? model->control[1] : 1;
+    for (pia_index k = 0; k < other; k++) {
         pia_index first = k * (direction == 0 ? 1 : model->control[1]);
-        if (distance(model, first, first + (lines - 1) * stride) > near) return 0;
+        if (differ(model, first, first + (model->control[direction] - 1) * stride) > near) return 0;
     }
     return 1;
+}
+
+static double weight_difference(const pia_model *model, pia_index i, pia_index j)
+{
+    double xyz[3], a, b;
+    pia_cad_point(model, i, xyz, &a);
+    pia_cad_point(model, j, xyz, &b);
+    return fabs(a - b);
+}
+
+int pia_cad_is_closed(const pia_model *model, int direction)
+{
+    return ends_agree(model, direction, distance, 1e-12 * pia_cad_size(model));
+}
+
+int pia_cad_is_closed_alike(const pia_model *model, int direction)
+{
+    return pia_cad_is_closed(model, direction) && ends_agree(model, direction, weight_difference, 0);
 }
 
 int pia_cad_is_degenerate(const pia_model *model, int along, int last)

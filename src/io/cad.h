@@ -30,6 +30,9 @@ double pia_cad_tolerance(const pia_write_options *options, const pia_model *cons
 
 /* Whether the ends of a direction coincide (the curve, or the first and last line of control points), to 1e-12 of the size. */
 int pia_cad_is_closed(const pia_model *model, int direction);
+/* Whether the weights agree there too. Only then may a file say "closed": readers make such a spline periodic, and OpenCASCADE changes
+ * the shape of one whose ends have different weights. */
+int pia_cad_is_closed_alike(const pia_model *model, int direction);
 /* Whether an edge of a surface shrinks to a point: direction of the edge's own parameter, first or last line across. */
 int pia_cad_is_degenerate(const pia_model *model, int along, int last);
 

@@ -2,6 +2,7 @@
  * the digits a double has. Fixed 80-column lines in the sections start, global, directory, parameters, terminate. */
 #include "cad.h"
 #include "iges.h"
+#include "occt.h"
 
 static pia_status write_models(pia_context *context, pia_output *output, const pia_model *const *models, pia_index count,
                                const pia_write_options *options)
@@ -16,10 +17,17 @@ static pia_status write_models(pia_context *context, pia_output *output, const p
     return status;
 }
 
+static pia_status read_models(pia_context *context, const pia_input *input, pia_model ***out, pia_index *count)
+{
+    return pia_occt_read(context, input, "iges", out, count);
+}
+
 const pia_format pia_format_iges = {
     .name = "iges",
     .title = "IGES 5.3, entities 126, 128 and 144",
-    .detail = "writes curves, surfaces and trimmed surfaces, exact to the bit; several in a file",
+    .detail = "reads and writes curves, surfaces and trimmed surfaces, exact to the bit; several in a file",
     .extensions = "igs iges",
+    .read_models = read_models,
+    .reads_by_plugin = 1,
     .write_models = write_models,
 };

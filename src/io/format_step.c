@@ -1,6 +1,7 @@
 /* STEP AP214 and AP242 (ISO 10303-21), a part a model: curves as geometric curve sets; surfaces as advanced faces with boundary curves,
  * the form CAD systems read best, or as geometric sets where they have no trim loops and an edge is closed or shrinks to a point (a
  * sphere's pole, a tube), which faces do not survive. Numbers with all the digits a double has. */
+#include "occt.h"
 #include "step.h"
 
 /* What represents a model: one item, and the kind of representation it belongs to. */
@@ -46,10 +47,17 @@ static pia_status write_models(pia_context *context, pia_output *output, const p
     return status;
 }
 
+static pia_status read_models(pia_context *context, const pia_input *input, pia_model ***out, pia_index *count)
+{
+    return pia_occt_read(context, input, "step", out, count);
+}
+
 const pia_format pia_format_step = {
     .name = "step",
     .title = "STEP AP214 and AP242 (ISO 10303-21)",
-    .detail = "writes curves, surfaces and trimmed faces, exact to the bit; several in a file",
+    .detail = "reads and writes curves, surfaces and trimmed faces, exact to the bit; several in a file",
     .extensions = "stp step",
+    .read_models = read_models,
+    .reads_by_plugin = 1,
     .write_models = write_models,
 };

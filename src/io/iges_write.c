@@ -87,7 +87,7 @@ static void put_spline(section *s, const pia_model *model)
     for (int d = 0; d < model->directions; d++) put_count(s, (long long)model->control[d] - 1);
     for (int d = 0; d < model->directions; d++) put_count(s, model->degree[d]);
     if (!surface) put_count(s, model->dim == 2); /* planar */
-    for (int d = 0; d < model->directions; d++) put_count(s, pia_cad_is_closed(model, d));
+    for (int d = 0; d < model->directions; d++) put_count(s, pia_cad_is_closed_alike(model, d));
     put_count(s, !model->rational);
     for (int d = 0; d < model->directions; d++) put_count(s, 0); /* clamped, hence not periodic in the sense of IGES */
     for (int d = 0; d < model->directions; d++) put_knots(s, model, d);

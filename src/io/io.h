@@ -67,8 +67,9 @@ typedef struct pia_format {
                                const pia_write_options *options); /* whole; the name is never NULL */
     pia_status (*write_table)(pia_context *context, pia_output *output, const char *header, const double *values, pia_index rows,
                               int columns);
-} pia_format; /* a NULL entry: the format cannot do that. Readers leave `out` as it was on failure, apart from what
-                 pia_points_clear gives back */
+    int reads_by_plugin; /* 1: read_models needs the plug-in pia-occt (occt.h) */
+} pia_format;            /* a NULL entry: the format cannot do that. Readers leave `out` as it was on failure, apart from what
+                            pia_points_clear gives back */
 
 /* The registry, collected from the files format_*.c; NULL past the end. */
 const pia_format *pia_format_list(pia_index index);

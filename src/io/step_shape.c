@@ -17,7 +17,7 @@ static void put_runs(pia_step *s, const double *knots, pia_index count, int valu
 
 pia_step_line pia_step_whole(const pia_model *curve)
 {
-    return (pia_step_line){0, 1, curve->control[0], curve->degree[0], pia_cad_is_closed(curve, 0), curve->knots[0]};
+    return (pia_step_line){0, 1, curve->control[0], curve->degree[0], pia_cad_is_closed_alike(curve, 0), curve->knots[0]};
 }
 
 static void put_weights(pia_step *s, const pia_model *model, const pia_step_line *l)
@@ -80,7 +80,7 @@ static void put_net(pia_step *s, const pia_model *model, long long points)
 long long pia_step_surface(pia_step *s, const pia_model *model, long long points)
 {
     long long number = pia_step_begin(s);
-    const char *u = pia_step_logical(pia_cad_is_closed(model, 0)), *v = pia_step_logical(pia_cad_is_closed(model, 1));
+    const char *u = pia_step_logical(pia_cad_is_closed_alike(model, 0)), *v = pia_step_logical(pia_cad_is_closed_alike(model, 1));
     if (!model->rational) {
         pia_output_text(s->output, "B_SPLINE_SURFACE_WITH_KNOTS('',%d,%d,", model->degree[0], model->degree[1]);
         put_net(s, model, points);

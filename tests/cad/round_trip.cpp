@@ -1,0 +1,236 @@
+// Models written as STEP and IGES, read by OpenCASCADE itself: every face valid, geometry equal to 1e-12 of the extent, areas right;
+// then read back by the library; then shapes that OpenCASCADE made. Usage: round_trip FOLDER
+#include "shapes.hpp"
+
+#include <BRepCheck_Analyzer.hxx>
+#include <BRepGProp.hxx>
+#include <BRepPrimAPI_MakeCylinder.hxx>
+#include <BRepTools.hxx>
+#include <BRep_Tool.hxx>
+#include <GProp_GProps.hxx>
+#include <Geom_Curve.hxx>
+#include <Geom_Surface.hxx>
+#include <IGESControl_Reader.hxx>
+#include <STEPControl_Reader.hxx>
+#include <STEPControl_Writer.hxx>
+#include <TopExp_Explorer.hxx>
+#include <TopoDS.hxx>
+#include <TopoDS_Edge.hxx>
+#include <TopoDS_Face.hxx>
+
+static pia_context *context;
+
+typedef std::vector<Model> Models;
+
+static Models curves()
+{
+    Models all;
+    all.push_back(curve(3, 12, 3, false, false));
+    all.push_back(curve(2, 7, 2, true, false));
+    all.push_back(curve(5, 14, 3, true, true));
+    return all;
+}
+
+static Models surfaces()
+{
+    const Numbers hole = {0.45, 0.45, 0.45, 0.55, 0.6, 0.5};
+    Models all;
+    all.push_back(wavy_surface(3, 3, false));
+    all.push_back(wavy_surface(2, 4, true));
+    all.push_back(sphere());
+    all.push_back(torus());
+    all.push_back(cylinder());
+    all.push_back(cone());
+    all.push_back(trimmed(wavy_surface(3, 3, false), {star(), hole}));
+    all.push_back(trimmed(wavy_surface(5, 2, true), {star(), hole}));
+    all.push_back(trimmed(wavy_surface(1, 3, false), {{0, 0, 1, 0, 1, 0.5, 0.5, 1, 0, 1}})); // along the border
+    all.push_back(trimmed(sphere(), {{0, 0.5, 0.25, 0.5, 0.25, 1, 0, 1}}));                  // at a pole
+    all.push_back(trimmed(cylinder(), {{0, 0, 1, 0, 1, 0.6, 0.5, 0.9, 0, 0.6}}));            // across the seam
+    all.push_back(trimmed(torus(), {{0.2, 0.2, 0.7, 0.3, 0.6, 0.8}, {0.5, 0.4, 0.5, 0.5, 0.55, 0.5}}));
+    return all;
+}
+
+static double extent(const pia_model *model)
+{
+    double low[3] = {0}, high[3] = {0};
+    CHECK(pia_model_bounds(context, model, low, high) == PIA_OK, "bounds");
+    return std::sqrt(std::pow(high[0] - low[0], 2) + std::pow(high[1] - low[1], 2) + std::pow(high[2] - low[2], 2));
+}
+
+static void write(const std::string &path, const Models &models, pia_step_schema schema, pia_unit unit)
+{
+    std::vector<const pia_model *> list;
+    for (const Model &model : models) list.push_back(model.get());
+    pia_write_options options;
+    pia_write_options_init(&options);
+    options.step_schema = schema;
+    options.unit = unit;
+    pia_status status = pia_model_write_as(context, path.c_str(), list.data(), (pia_index)list.size(), &options);
+    CHECK(status == PIA_OK, "%s: %s", path.c_str(), pia_message(context));
+}
+
+// ---- read by OpenCASCADE ----
+
+template <class Reader> static TopoDS_Shape read(const std::string &path)
+{
+    Reader reader;
+    CHECK(reader.ReadFile(path.c_str()) == IFSelect_RetDone, "%s", path.c_str());
+    reader.TransferRoots();
+    return reader.OneShape();
+}
+
+static TopoDS_Shape read_shape(const std::string &path)
+{
+    return path.back() == 's' ? read<IGESControl_Reader>(path) : read<STEPControl_Reader>(path);
+}
+
+static void compare(const pia_model *model, const double *at, const gp_Pnt &theirs, double scale, double near)
+{
+    double ours[3] = {0};
+    CHECK(pia_model_eval(context, model, at, 1, 0, ours) == PIA_OK, "evaluation");
+    double off = theirs.Distance(gp_Pnt(scale * ours[0], scale * ours[1], scale * ours[2]));
+    CHECK(off <= near, "a point is off by %g at (%g, %g)", off, at[0], at[1]);
+}
+
+static void check_face(const TopoDS_Face &face, const pia_model *model, double scale)
+{
+    enum { STEPS = 16 };
+    CHECK(BRepCheck_Analyzer(face).IsValid(), "a face is broken");
+    Handle(Geom_Surface) surface = BRep_Tool::Surface(face);
+    pia_model_info info = info_of(model);
+    double near = 1e-12 * scale * extent(model);
+    for (int i = 0; i <= STEPS; i++)
+        for (int j = 0; j <= STEPS; j++) {
+            const double share[2] = {(double)i / STEPS, (double)j / STEPS};
+            double at[2];
+            for (int d = 0; d < 2; d++) at[d] = info.domain[d][0] + share[d] * (info.domain[d][1] - info.domain[d][0]);
+            compare(model, at, surface->Value(at[0], at[1]), scale, near);
+        }
+    GProp_GProps area;
+    BRepGProp::SurfaceProperties(face, area, 1e-6);
+    double expected = scale * scale * area_of(model);
+    CHECK(std::fabs(area.Mass() - expected) <= 1e-3 * expected, "an area is %.12g, not %.12g", area.Mass(), expected);
+}
+
+static void check_edge(const TopoDS_Edge &edge, const pia_model *model, double scale)
+{
+    enum { STEPS = 200 };
+    double first, last;
+    Handle(Geom_Curve) curve = BRep_Tool::Curve(edge, first, last);
+    pia_model_info info = info_of(model);
+    double near = 1e-12 * scale * extent(model);
+    CHECK(first == info.domain[0][0] && last == info.domain[0][1], "a domain is [%g, %g]", first, last);
+    for (int i = 0; i <= STEPS; i++) {
+        const double at[2] = {first + (last - first) * i / STEPS, 0};
+        compare(model, at, curve->Value(at[0]), scale, near);
+    }
+}
+
+static void check_shape(const std::string &path, const Models &models, double scale)
+{
+    TopoDS_Shape shape = read_shape(path);
+    size_t face = 0, edge = 0;
+    for (TopExp_Explorer e(shape, TopAbs_FACE); e.More(); e.Next(), face++) {
+        CHECK(face < models.size(), "%s has more faces than models", path.c_str());
+        check_face(TopoDS::Face(e.Current()), models[face].get(), scale);
+    }
+    for (TopExp_Explorer e(shape, TopAbs_EDGE, TopAbs_FACE); e.More(); e.Next(), edge++) {
+        CHECK(edge < models.size(), "%s has more curves than models", path.c_str());
+        check_edge(TopoDS::Edge(e.Current()), models[edge].get(), scale);
+    }
+    CHECK(face + edge == models.size(), "%s has %zu faces and %zu curves for %zu models", path.c_str(), face, edge, models.size());
+}
+
+// ---- read by the library ----
+
+static Models read_models(const std::string &path)
+{
+    pia_model **list = nullptr;
+    pia_index count = 0;
+    pia_status status = pia_model_read(context, path.c_str(), nullptr, &list, &count);
+    CHECK(status == PIA_OK, "%s: %s", path.c_str(), pia_message(context));
+    Models all;
+    for (pia_index k = 0; k < count; k++) {
+        pia_model *copy = nullptr;
+        CHECK(pia_model_insert_knots(context, list[k], 0, nullptr, 0, &copy) == PIA_OK, "a copy");
+        all.push_back(Model(copy));
+    }
+    pia_models_destroy(list, count);
+    return all;
+}
+
+static void check_model(const pia_model *back, const pia_model *model, double scale)
+{
+    enum { STEPS = 16 };
+    pia_model_info info = info_of(back);
+    CHECK(info.directions == info_of(model).directions && info.rational == info_of(model).rational, "another kind of model");
+    double near = 1e-12 * scale * extent(model);
+    for (int i = 0; i <= STEPS; i++)
+        for (int j = 0; j <= (info.directions == 2 ? STEPS : 0); j++) {
+            double at[2] = {info.domain[0][0] + (info.domain[0][1] - info.domain[0][0]) * i / STEPS,
+                            info.domain[1][0] + (info.domain[1][1] - info.domain[1][0]) * j / STEPS},
+                   x[3];
+            CHECK(pia_model_eval(context, back, at, 1, 0, x) == PIA_OK, "evaluation");
+            compare(model, at, gp_Pnt(x[0], x[1], x[2]), scale, near);
+        }
+    CHECK(pia_model_trim_loop_count(back) == pia_model_trim_loop_count(model), "another number of loops");
+    if (info.directions == 1) return;
+    double expected = scale * scale * area_of(model);
+    CHECK(std::fabs(area_of(back) - expected) <= 1e-6 * expected, "an area is %.12g, not %.12g", area_of(back), expected);
+}
+
+static void check_models(const std::string &path, const Models &models, double scale)
+{
+    Models back = read_models(path);
+    CHECK(back.size() == models.size(), "%s has %zu models, not %zu", path.c_str(), back.size(), models.size());
+    for (size_t k = 0; k < models.size(); k++) check_model(back[k].get(), models[k].get(), scale);
+}
+
+static void check_round_trip(const std::string &path, const Models &models, pia_step_schema schema, pia_unit unit, double scale)
+{
+    write(path, models, schema, unit);
+    check_shape(path, models, scale);
+    check_models(path, models, scale);
+}
+
+// ---- shapes of OpenCASCADE ----
+
+// A cylinder with its two lids, round pieces of planes: faces that are no splines, trimmed by circles.
+static void check_solid(const std::string &path)
+{
+    double area = 0;
+    Models models = read_models(path);
+    CHECK(models.size() == 3, "%s has %zu faces", path.c_str(), models.size());
+    for (const Model &model : models) area += area_of(model.get());
+    double expected = 2 * M_PI * 2 * 5 + 2 * M_PI * 4;
+    CHECK(std::fabs(area - expected) <= 1e-3 * expected, "%s: the area is %.12g, not %.12g", path.c_str(), area, expected);
+}
+
+static void check_foreign(const std::string &folder)
+{
+    TopoDS_Shape solid = BRepPrimAPI_MakeCylinder(2, 5).Shape();
+    CHECK(BRepTools::Write(solid, (folder + "/solid.brep").c_str()), "no BREP file");
+    STEPControl_Writer writer;
+    writer.Transfer(solid, STEPControl_AsIs);
+    CHECK(writer.Write((folder + "/solid.step").c_str()) == IFSelect_RetDone, "no STEP file");
+    check_solid(folder + "/solid.brep");
+    check_solid(folder + "/solid.step");
+}
+
+int main(int argc, char **argv)
+{
+    if (argc != 2) return 2;
+    std::string folder = argv[1];
+    CHECK(pia_context_create(nullptr, &context) == PIA_OK, "no context");
+    Models lines = curves(), faces = surfaces();
+    check_round_trip(folder + "/curves.step", lines, PIA_STEP_AP214, PIA_UNIT_MILLIMETRE, 1);
+    check_round_trip(folder + "/curves.igs", lines, PIA_STEP_AP214, PIA_UNIT_MILLIMETRE, 1);
+    check_round_trip(folder + "/faces.step", faces, PIA_STEP_AP214, PIA_UNIT_MILLIMETRE, 1);
+    check_round_trip(folder + "/faces.igs", faces, PIA_STEP_AP214, PIA_UNIT_MILLIMETRE, 1);
+    check_round_trip(folder + "/inch.step", faces, PIA_STEP_AP242, PIA_UNIT_INCH, 25.4);
+    check_round_trip(folder + "/metre.igs", faces, PIA_STEP_AP214, PIA_UNIT_METRE, 1000);
+    check_foreign(folder);
+    pia_context_destroy(context);
+    std::printf("STEP, IGES and BREP read back\n");
+    return 0;
+}
