@@ -2,6 +2,15 @@
 
 #include <unistd.h>
 
+static void check_trim(const pia_trim *a, const pia_trim *b)
+{
+    PROMISE((a == NULL) == (b == NULL));
+    if (a == NULL) return;
+    PROMISE(a->loop_count == b->loop_count && a->loop_count > 0);
+    for (pia_index l = 0; l <= a->loop_count; l++) PROMISE(a->start[l] == b->start[l]);
+    PROMISE(memcmp(a->uv, b->uv, (size_t)a->start[a->loop_count] * 2 * sizeof(double)) == 0);
+}
+
 /* What can be read can be written, and then reads as the same bits. */
 static void write_and_read(pia_context *context, pia_model **models, pia_index count)
 {
@@ -18,6 +27,7 @@ static void write_and_read(pia_context *context, pia_model **models, pia_index c
         PROMISE(a->directions == b->directions && a->dim == b->dim && a->rational == b->rational);
         size_t values = (size_t)(a->control[0] * a->control[1] * pia_model_width(a));
         PROMISE(memcmp(a->points, b->points, values * sizeof(double)) == 0);
+        check_trim(a->trim, b->trim);
     }
     pia_models_destroy(back, back_count);
     unlink(path);

@@ -100,11 +100,13 @@ static pia_status read_tree(pia_context *context, const pia_input *input, const 
 {
     pia_json_place place = {.context = context, .input = input};
     const json_t *data = json_object_get(json_object_get(root, "shape"), "data");
-    pia_index size = json_is_array(data) ? (pia_index)json_array_size(data) : json_is_object(data) ? 1 : 0;
+    int tinyspline = pia_json_is_tinyspline(root);
+    pia_index size = json_is_array(data) ? (pia_index)json_array_size(data) : json_is_object(data) || tinyspline ? 1 : 0;
     if (size == 0) return pia_input_fail(context, input, NULL, "has no shape.data; is this a model file?");
     pia_model **models = pia_take_zero(context, size, sizeof *models);
     if (models == NULL) return pia_take_status(context, size, sizeof *models);
-    pia_status status = read_data(&place, root, models, size);
+    if (tinyspline) place.model = PIA_AUTO;
+    pia_status status = tinyspline ? pia_json_read_tinyspline(&place, root, models) : read_data(&place, root, models, size);
     if (status == PIA_OK) {
         *out = models;
         *count = size;
@@ -128,7 +130,7 @@ static pia_status read_models(pia_context *context, const pia_input *input, pia_
 const pia_format pia_format_json = {
     .name = "json",
     .title = "JSON model in the layout of geomdl, rw3dm and Sverchok",
-    .detail = "reads and writes every model exactly, with the report of its fit",
+    .detail = "reads and writes every model exactly, with trim loops and the report of its fit; reads TinySpline's layout",
     .extensions = "json",
     .read_models = read_models,
     .write_models = pia_json_write_models,

@@ -29,10 +29,10 @@ pia_status pia_json_write_models(pia_context *context, pia_output *output, const
 typedef struct pia_json_place {
     pia_context *context;
     const pia_input *input;
-    pia_index model; /* from 0 */
+    pia_index model; /* from 0; PIA_AUTO: the file is the model */
 } pia_json_place;
 
-/* PIA_E_FORMAT "PATH: shape.data[0]: key what". */
+/* PIA_E_FORMAT "PATH: shape.data[0]: key what", or "PATH: key what" where the file is the model. */
 pia_status pia_json_fail(const pia_json_place *place, const char *key, const char *what);
 /* The number under `key`, which is whole and in [least, most]. */
 pia_status pia_json_get_index(const pia_json_place *place, const json_t *object, const char *key, pia_index least, pia_index most,
@@ -43,6 +43,9 @@ pia_status pia_json_get_reals(const pia_json_place *place, const json_t *array, 
 pia_status pia_json_get_points(const pia_json_place *place, const json_t *rows, double **out, pia_index *count, int *dim);
 /* The object "trims" of a surface: *model becomes the trimmed one. PIA_E_FORMAT, PIA_E_DATA, PIA_E_MEMORY. */
 pia_status pia_json_read_trim(const pia_json_place *place, const json_t *trims, pia_model **model);
+/* Whether a file is a curve in TinySpline's layout, and that curve. PIA_E_FORMAT, PIA_E_MEMORY. */
+int pia_json_is_tinyspline(const json_t *root);
+pia_status pia_json_read_tinyspline(const pia_json_place *place, const json_t *root, pia_model **out);
 /* The model that one member of shape.data describes. PIA_E_FORMAT, PIA_E_MEMORY. */
 pia_status pia_json_read_shape(const pia_json_place *place, const json_t *data, int directions, pia_model **out);
 

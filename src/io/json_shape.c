@@ -6,6 +6,7 @@
 
 pia_status pia_json_fail(const pia_json_place *place, const char *key, const char *what)
 {
+    if (place->model == PIA_AUTO) return pia_input_fail(place->context, place->input, NULL, "%s %s", key, what);
     return pia_input_fail(place->context, place->input, NULL, "shape.data[%lld]: %s %s", (long long)place->model, key, what);
 }
 
@@ -15,9 +16,11 @@ pia_status pia_json_get_index(const pia_json_place *place, const json_t *object,
     const json_t *value = json_object_get(object, key);
     double number = json_number_value(value);
     if (value == NULL) return pia_json_fail(place, key, "is missing");
-    if (!json_is_number(value) || number != floor(number) || number < (double)least || number > (double)most)
-        return pia_input_fail(place->context, place->input, NULL, "shape.data[%lld]: %s must be a whole number from %lld to %lld",
-                              (long long)place->model, key, (long long)least, (long long)most);
+    if (!json_is_number(value) || number != floor(number) || number < (double)least || number > (double)most) {
+        char what[80];
+        snprintf(what, sizeof what, "must be a whole number from %lld to %lld", (long long)least, (long long)most);
+        return pia_json_fail(place, key, what);
+    }
     *out = (pia_index)number;
     return PIA_OK;
 }
@@ -107,6 +110,13 @@ static pia_status get_sizes(const pia_json_place *place, const json_t *data, sha
     return status;
 }
 
+/* What the file says; where it says nothing, weights speak. */
+static int is_rational(const json_t *data)
+{
+    const json_t *word = json_object_get(data, "rational");
+    return word != NULL ? json_is_true(word) : json_object_get(json_object_get(data, "control_points"), "weights") != NULL;
+}
+
 static pia_status collect(const pia_json_place *place, const json_t *data, shape *s)
 {
     const json_t *control = json_object_get(data, "control_points");
@@ -119,7 +129,7 @@ static pia_status collect(const pia_json_place *place, const json_t *data, shape
     }
     if (status == PIA_OK) status = pia_json_get_points(place, json_object_get(control, "points"), &s->points, &s->point_count, &s->dim);
     if (status == PIA_OK) status = get_sizes(place, data, s);
-    if (status == PIA_OK && json_is_true(json_object_get(data, "rational")))
+    if (status == PIA_OK && is_rational(data))
         status = pia_json_get_reals(place, json_object_get(control, "weights"), "weights", &s->weights, &s->weight_count);
     for (int d = 0; d < s->directions && status == PIA_OK; d++)
         if (s->knot_count[d] != s->control[d] + s->degree[d] + 1)

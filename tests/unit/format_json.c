@@ -214,6 +214,38 @@ static void files_of_other_programs_are_read(void **state)
     pia_models_destroy(models, count);
 }
 
+/* A file as TinySpline 0.6 saves it: flat control points, no shape. */
+static void curves_of_tinyspline_are_read(void **state)
+{
+    static const char text[] =
+        "{\n    \"degree\": 2,\n    \"dimension\": 3,\n    \"control_points\": [\n 0, 0, 1, 1, 2, 1, 2, 0, 1, 3, 1, 1 ],\n"
+        "    \"knots\": [ 0, 0, 0, 0.5, 1, 1, 1 ]\n}";
+    pia_model **models = NULL;
+    pia_index count = 0;
+    assert_ok(*state, pia_model_read(*state, make_text("tiny.json", text), NULL, &models, &count));
+    assert_int_equal(count, 1);
+    assert_int_equal(models[0]->directions, 1);
+    assert_int_equal(models[0]->dim, 3);
+    assert_int_equal(models[0]->control[0], 4);
+    double p[3];
+    assert_ok(*state, pia_model_eval(*state, models[0], (double[]){0.5}, 1, 0, p));
+    assert_near(p[0], 1.5, 1e-15); /* at the single inside knot of degree 2: the middle of control points 1 and 2 */
+    assert_near(p[1], 1, 1e-15);
+    pia_models_destroy(models, count);
+}
+
+/* geomdl takes weights wherever they are. */
+static void weights_without_a_word_make_a_rational_model(void **state)
+{
+    static const char text[] = "{\"shape\": {\"type\": \"curve\", \"data\": [{\"degree\": 2, \"knotvector\": [0, 0, 0, 1, 1, 1], "
+                               "\"control_points\": {\"points\": [[1, 0], [1, 1], [0, 1]], \"weights\": [1, 0.5, 1]}}]}}";
+    pia_model **models = NULL;
+    pia_index count = 0;
+    assert_ok(*state, pia_model_read(*state, make_text("weights.json", text), NULL, &models, &count));
+    assert_int_equal(models[0]->rational, 1);
+    pia_models_destroy(models, count);
+}
+
 static void bad_models_are_refused_with_their_place(void **state)
 {
     static const struct {
@@ -225,6 +257,12 @@ static void bad_models_are_refused_with_their_place(void **state)
         {"{\"a\":\n 1e999}", ":2: column 6: real number overflow"},
         {"[1, 2]", "has no shape.data"},
         {"{\"shape\": {\"type\": \"mesh\", \"data\": [{}]}}", "shape.type must be"},
+        {"{\"degree\": 1, \"dimension\": 2, \"control_points\": [0, 0, 1], \"knots\": [0, 0, 1, 1]}",
+         "bad.json: control_points are not whole points"},
+        {"{\"degree\": 1, \"dimension\": 2, \"control_points\": [0, 0, 1, 1], \"knots\": [0, 1, 1]}",
+         "bad.json: knots must be as many"},
+        {"{\"degree\": 1e18, \"dimension\": 2, \"control_points\": [], \"knots\": []}", "bad.json: degree must be a whole number"},
+        {"{\"degree\": 1, \"dimension\": 2, \"control_points\": [0, 0, 1, 1], \"knots\": [0, 1, 2, 3]}", "not clamped"},
         {LINE(KNOTS), "shape.data[0]: points must be an array of points"},
         {LINE(POINTS), "shape.data[0]: degree is missing"},
         {LINE("\"degree\": 26, \"knotvector\": [0], " POINTS), "degree must be a whole number from 1 to 25"},
@@ -281,6 +319,8 @@ int main(void)
         IN_FOLDER(a_locale_with_decimal_commas_changes_nothing),
         IN_FOLDER(curves_and_surfaces_do_not_share_a_file),
         IN_FOLDER(files_of_other_programs_are_read),
+        IN_FOLDER(curves_of_tinyspline_are_read),
+        IN_FOLDER(weights_without_a_word_make_a_rational_model),
         IN_FOLDER(bad_models_are_refused_with_their_place),
         IN_FOLDER(deep_nesting_is_refused),
     };
