@@ -5,11 +5,13 @@
 #include <BRepTools.hxx>
 #include <BRep_Builder.hxx>
 #include <IGESControl_Reader.hxx>
+#include <Interface_Static.hxx>
 #include <STEPControl_Reader.hxx>
 
 template <class Reader> static TopoDS_Shape read_exchange(const char *path, const char *name)
 {
-    Reader reader;
+    Reader reader;                                                // which also makes the settings known
+    Interface_Static::SetIVal("read.iges.bspline.continuity", 0); // splines stay as they are, corners and all
     if (reader.ReadFile(path) != IFSelect_RetDone)
         throw std::runtime_error(std::string("it is not a ") + name + " file, or a damaged one");
     reader.TransferRoots();

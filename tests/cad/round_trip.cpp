@@ -10,7 +10,9 @@
 #include <GProp_GProps.hxx>
 #include <Geom_Curve.hxx>
 #include <Geom_Surface.hxx>
+#include <IGESControl_Controller.hxx>
 #include <IGESControl_Reader.hxx>
+#include <Interface_Static.hxx>
 #include <STEPControl_Reader.hxx>
 #include <STEPControl_Writer.hxx>
 #include <TopExp_Explorer.hxx>
@@ -28,6 +30,7 @@ static Models curves()
     all.push_back(curve(3, 12, 3, false, false));
     all.push_back(curve(2, 7, 2, true, false));
     all.push_back(curve(5, 14, 3, true, true));
+    all.push_back(curve(1, 9, 3, false, false)); // corners
     return all;
 }
 
@@ -222,6 +225,8 @@ int main(int argc, char **argv)
     if (argc != 2) return 2;
     std::string folder = argv[1];
     CHECK(pia_context_create(nullptr, &context) == PIA_OK, "no context");
+    IGESControl_Controller::Init();
+    Interface_Static::SetIVal("read.iges.bspline.continuity", 0); // splines as they are in the file
     Models lines = curves(), faces = surfaces();
     check_round_trip(folder + "/curves.step", lines, PIA_STEP_AP214, PIA_UNIT_MILLIMETRE, 1);
     check_round_trip(folder + "/curves.igs", lines, PIA_STEP_AP214, PIA_UNIT_MILLIMETRE, 1);
