@@ -1,6 +1,6 @@
-/* STEP AP214 and AP242 (ISO 10303-21), a part a model: curves as geometric curve sets; surfaces as advanced faces with boundary curves,
- * the form CAD systems read best, or as geometric sets where they have no trim loops and an edge is closed or shrinks to a point (a
- * sphere's pole, a tube), which faces do not survive. Numbers with all the digits a double has. */
+/* STEP AP214 and AP242 (ISO 10303-21), a part a model: curves as geometric curve sets; surfaces as advanced faces, the form CAD systems
+ * read best, with a seam where they are closed and no edge where they shrink to a point (a sphere's pole). Numbers with all the digits
+ * a double has. */
 #include "occt.h"
 #include "step.h"
 

@@ -45,9 +45,10 @@ pia_step_line pia_step_whole(const pia_model *curve);
 long long pia_step_curve(pia_step *s, const pia_model *model, long long points, const pia_step_line *line);
 long long pia_step_surface(pia_step *s, const pia_model *model, long long points);
 
-/* Whether a surface without trim loops has four edges of its own, neither closed nor shrunk to a point. */
+/* Whether at least two sides of a surface have a length: less bounds no face. */
 int pia_step_has_edges(const pia_model *surface);
-/* A shell of one face: a trimmed surface, or one that has edges. PIA_E_MEMORY; PIA_E_ARGUMENT, PIA_E_DATA of a trim. */
+/* A shell of one face: a trimmed surface, or one that has edges: a seam where it is closed, none where a side is a point. PIA_E_MEMORY;
+ * PIA_E_ARGUMENT, PIA_E_DATA of a trim. */
 pia_status pia_step_shell(pia_context *context, pia_step *s, const pia_model *model, long long surface, long long points,
                           long long *shell);
 

@@ -139,7 +139,7 @@ static void a_step_file_refers_to_nothing_it_does_not_define(void **state)
     char *text = write_text(*state, "models.step", (const pia_model *const *)models, 5, NULL);
     assert_refers_to_itself(text);
     assert_int_equal(occurrences(text, "=ADVANCED_FACE"), 4);
-    assert_int_equal(occurrences(text, "=SURFACE_CURVE"), 2 * (4 + 3));
+    assert_int_equal(occurrences(text, "=SURFACE_CURVE"), 2 * 4 + 2 * (4 + 3));
     assert_int_equal(occurrences(text, "=GEOMETRIC_CURVE_SET"), 1);
     assert_int_equal(occurrences(text, "=FACE_OUTER_BOUND"), 4);
     assert_int_equal(occurrences(text, "=FACE_BOUND"), 2);
@@ -150,6 +150,33 @@ static void a_step_file_refers_to_nothing_it_does_not_define(void **state)
     }
     free(text);
     for (int k = 0; k < 5; k++) pia_model_destroy(models[k]);
+}
+
+/* A square tube, closed in u: its seam is one edge used twice. Shrunk at v = 1 to a pyramid, it has no edge there. */
+static void closed_surfaces_have_a_seam_and_no_edge_where_they_shrink(void **state)
+{
+    static const double u[] = {0, 0, 0.25, 0.5, 0.75, 1, 1}, v[] = {0, 0, 1, 1}, x[] = {0, 1, 1, 0, 0}, y[] = {0, 0, 1, 1, 0};
+    const double *const knots[] = {u, v};
+    for (int pyramid = 0; pyramid < 2; pyramid++) {
+        double points[5 * 2 * 3];
+        for (int i = 0; i < 10; i++) {
+            int top = i % 2, tip = top && pyramid;
+            points[3 * i] = tip ? 0.5 : x[i / 2];
+            points[3 * i + 1] = tip ? 0.5 : y[i / 2];
+            points[3 * i + 2] = top;
+        }
+        pia_model *tube = NULL;
+        assert_ok(*state, pia_model_create(*state, 2, (int[]){1, 1}, knots, (pia_index[]){5, 2}, 3, points, NULL, &tube));
+        const pia_model *one = tube;
+        char *text = write_text(*state, "tube.step", &one, 1, NULL);
+        assert_refers_to_itself(text);
+        assert_int_equal(occurrences(text, "=SEAM_CURVE"), 1);
+        assert_int_equal(occurrences(text, "=EDGE_CURVE"), 3 - pyramid);
+        assert_int_equal(occurrences(text, "=ORIENTED_EDGE"), 4 - pyramid);
+        assert_int_equal(occurrences(text, "=VERTEX_POINT"), 2);
+        free(text);
+        pia_model_destroy(tube);
+    }
 }
 
 static void units_schema_tolerance_and_name_are_written(void **state)
@@ -260,6 +287,7 @@ int main(void)
         IN_FOLDER(g2_reads_back_what_it_wrote),
         IN_FOLDER(g2_that_is_damaged_is_refused_with_its_line),
         IN_FOLDER(every_line_of_an_iges_file_has_80_columns_and_its_section),
+        IN_FOLDER(closed_surfaces_have_a_seam_and_no_edge_where_they_shrink),
         IN_FOLDER(units_schema_tolerance_and_name_are_written),
         IN_FOLDER(a_trimmed_surface_in_iges_has_all_its_entities),
         IN_FOLDER(write_options_out_of_range_are_refused),
