@@ -93,7 +93,7 @@ static void fit_files(pia_context *context, int grid, char **path)
     }
     struct rusage before, after;
     double peak = 0;
-    for (int repeat = 0; repeat < (count > 10000000 ? 2 : REPEATS); repeat++) {
+    for (int repeat = 0; repeat < REPEATS; repeat++) {
         pia_model *model;
         pia_report report = {.struct_size = sizeof report};
         getrusage(RUSAGE_SELF, &before);

@@ -122,6 +122,8 @@ pia_status pia_fit_parametrize(pia_fit *fit, const pia_data *data);
 pia_status pia_fit_refuse_parameters(pia_fit *fit, const double *given, int direction, pia_index count);
 pia_status pia_fit_place(pia_fit *fit);
 pia_status pia_fit_operate(pia_fit *fit);
+/* Whether the operator's interpolating curve is found in one step, from data to control points, and nobody asks for what was before. */
+int pia_fit_is_one_step(const pia_fit *fit);
 /* Operator, normal form and iterate for the current knots, in place of the ones before; control points undefined. */
 pia_status pia_fit_assemble(pia_fit *fit);
 /* The same when rows, weights or parameters have changed: control points, frozen ones included, stay; the method begins anew. */

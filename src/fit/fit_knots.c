@@ -78,10 +78,11 @@ static pia_status given_direction(pia_fit *fit, int d, const double *knots, pia_
                         (long long)count, (long long)n, fit->degree[d], (long long)fit->options.control[d]);
     fit->map[d] = fit->closed[d] ? PIA_MAP_CYCLIC : PIA_MAP_IDENTITY;
     pia_status status = pia_fit_check_control(fit, d, n);
-    if (status == PIA_OK && !fit->closed[d]) status = pia_knots_check(fit->context, fit->degree[d], knots, count, full);
     if (status == PIA_OK) status = pia_fit_take_knots(fit, d, full);
-    if (status == PIA_OK) pia_copy(fit->context, fit->knots[d], knots, count);
-    return status;
+    if (status != PIA_OK) return status;
+    if (!fit->closed[d]) return pia_knots_copy(fit->context, fit->degree[d], knots, count, full, fit->knots[d]);
+    pia_copy(fit->context, fit->knots[d], knots, count);
+    return PIA_OK;
 }
 
 pia_status pia_fit_adopt_knots(pia_fit *fit, const pia_model *start)
@@ -294,10 +295,15 @@ pia_status pia_fit_operate(pia_fit *fit)
     for (int d = 0; d < fit->directions && status == PIA_OK; d++) {
         status = pia_collocation_open(fit->context, fit->degree[d], fit->map[d], cyclic_offset(fit, d), fit->knots[d], fit->full[d],
                                       fit->parameter[d], fit->count[d], keep, &fit->line[d]);
-        if (status == PIA_OK && fit->placement == NULL) status = check_held(fit, d);
     }
     if (status != PIA_OK) return status;
     const double *weights = fit->square ? NULL : pia_fit_row_weights(fit);
-    if (fit->directions == 1) return pia_op_curve_open(fit->context, &fit->line[0], weights, fit->dim, &fit->op);
-    return pia_op_grid_open(fit->context, &fit->line[0], &fit->line[1], weights, fit->dim, &fit->op);
+    if (fit->directions == 1)
+        status = pia_op_curve_open(fit->context, &fit->line[0], weights, fit->dim, &fit->op);
+    else
+        status = pia_op_grid_open(fit->context, &fit->line[0], &fit->line[1], weights, fit->dim, &fit->op);
+    int solve_finds_out = status == PIA_OK && pia_fit_is_one_step(fit);
+    for (int d = 0; d < fit->directions && status == PIA_OK && fit->placement == NULL && !solve_finds_out; d++)
+        status = check_held(fit, d);
+    return status;
 }

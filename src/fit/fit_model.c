@@ -37,6 +37,13 @@ static int is_plain(const pia_fit *fit)
     return fit->op->identity && !fit->function_graph;
 }
 
+static int is_at_origin(const pia_fit *fit)
+{
+    int all = 1;
+    for (int d = 0; d < fit->dim; d++) all &= fit->origin[d] == 0;
+    return all;
+}
+
 static void fill_chunk(void *work, pia_index chunk)
 {
     const controls *c = work;
@@ -114,7 +121,7 @@ static pia_status attach_summary(pia_fit *fit, const pia_report *report, pia_mod
 static pia_status give_model(pia_fit *fit, pia_model **out)
 {
     if (is_closed(fit) || !is_plain(fit)) return pia_fit_bare_model(fit, out);
-    fill_control(fit, fit->iterate.points);
+    if (!is_at_origin(fit)) fill_control(fit, fit->iterate.points);
     return pia_model_adopt(fit->context, fit->directions, fit->degree, fit->full, fit->dim, 0, fit->knots, &fit->iterate.points, out);
 }
 

@@ -109,8 +109,7 @@ static void drop_assembly(pia_fit *fit)
     *iterate = (pia_iterate){.context = fit->context, .iteration = iterate->iteration};
 }
 
-/* The one call interpolates in one step and nobody asks for what was before: control points need not start as a copy of the data. */
-static int is_one_step(const pia_fit *fit)
+int pia_fit_is_one_step(const pia_fit *fit)
 {
     const pia_fit_options *o = &fit->options;
     int asked = o->tolerance > 0 || o->time_limit > 0 || o->trace_every > 0 || o->progress != NULL || o->max_iterations == 0;
@@ -126,7 +125,8 @@ static pia_status take_iterate(pia_fit *fit)
     iterate->targets = (pia_targets){fit->points, fit->origin, fit->dim};
     iterate->square = fit->square;
     iterate->constraint_error = iterate->relative_gradient = NAN;
-    int blank = is_one_step(fit);
+    int blank = pia_fit_is_one_step(fit); /* control points need not start as a copy of the data, nor count from their middle */
+    if (blank) memset(fit->origin, 0, sizeof fit->origin);
     if (!blank) iterate->points = pia_take(fit->context, size, sizeof(double));
     iterate->adjust = pia_take(fit->context, size, sizeof(double));
     if ((!blank && iterate->points == NULL) || iterate->adjust == NULL) return PIA_E_MEMORY;

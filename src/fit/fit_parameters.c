@@ -24,11 +24,13 @@ pia_status pia_fit_refuse_parameters(pia_fit *fit, const double *given, int dire
     return pia_fail(context, PIA_E_DATA, "all %sparameters equal %g", where, given[0]);
 }
 
-static pia_status take_given(pia_fit *fit, const double *given, int direction, pia_index count, pia_index given_count)
+/* *rising: no two parameters are equal. */
+static pia_status take_given(pia_fit *fit, const double *given, int direction, pia_index count, pia_index given_count, int *rising)
 {
     pia_context *context = fit->context;
     double first = given[0], last = given[given_count - 1];
-    int ordered = fit->unseen ? isfinite(first) && isfinite(last) : pia_scan_ordered(context, given, given_count);
+    *rising = !fit->unseen && pia_scan_rising(context, given, given_count);
+    int ordered = *rising || (fit->unseen ? isfinite(first) && isfinite(last) : pia_scan_ordered(context, given, given_count));
     if (!ordered || !(first < last) || (fit->closed[direction] && !(first >= 0 && last <= 1)))
         return pia_fit_refuse_parameters(fit, given, direction, given_count);
     if (fit->borrowed && fit->row == NULL && fit->directions == 1 && !fit->closed[0]) {
@@ -138,7 +140,6 @@ static pia_status separate(pia_fit *fit, int direction)
 {
     pia_index lines = fit->count[direction], other = fit->rows / lines, repeats = 0;
     const double *t = fit->parameter[direction];
-    if (pia_scan_rising(fit->context, t, lines)) return PIA_OK;
     for (pia_index i = 1; i < lines; i++) repeats += !(t[i] > t[i - 1]);
     if (repeats == 0) return PIA_OK;
     unsigned char *keep = pia_take(fit->context, lines, 1);
@@ -186,19 +187,21 @@ pia_status pia_fit_parametrize(pia_fit *fit, const pia_data *data)
 {
     pia_status status = PIA_OK;
     int apart = fit->square || pia_fit_by_line(fit); /* every row has a control point, or may get one */
+    int rising[2] = {0, 0};
     if (fit->function_graph) return apart ? merge_equal_abscissas(fit) : PIA_OK;
     if (data->parameters != NULL) {
         fit->parametrization = NULL;
         fit->cloud = NULL;
         if (fit->kind == PIA_SCATTERED) return take_given_pairs(fit, data->parameters);
         for (int d = 0; status == PIA_OK && d < fit->directions; d++)
-            status = take_given(fit, data->parameters + (d == 0 ? 0 : data->count[0]), d, fit->count[d], data->count[d]);
+            status = take_given(fit, data->parameters + (d == 0 ? 0 : data->count[0]), d, fit->count[d], data->count[d], &rising[d]);
     } else {
         if (fit->kind == PIA_SCATTERED) return parametrize_cloud(fit);
         if ((apart || fit->refining) && fit->directions == 1) status = drop_equal_points(fit);
         if (status == PIA_OK) status = pia_fit_take_corners(fit);
         if (status == PIA_OK) status = compute(fit);
     }
-    for (int d = 0; status == PIA_OK && apart && fit->kind != PIA_SCATTERED && d < fit->directions; d++) status = separate(fit, d);
+    for (int d = 0; status == PIA_OK && apart && fit->kind != PIA_SCATTERED && d < fit->directions; d++)
+        if (!rising[d]) status = separate(fit, d);
     return status;
 }

@@ -107,7 +107,9 @@ void pia_collocation_close(pia_context *context, pia_collocation *c)
 
 pia_index pia_collocation_span(const pia_collocation *c, pia_index row)
 {
-    return pia_knots_span(c->knots, c->degree, c->full, c->parameters[row]);
+    double share = (double)row / (double)c->rows; /* rows and spans are mostly spread alike */
+    pia_index hint = c->degree + (pia_index)(share * (double)spans(c));
+    return pia_knots_span_near(c->knots, c->degree, c->full, c->parameters[row], hint);
 }
 
 pia_index pia_collocation_begin(const pia_collocation *c, pia_index span)

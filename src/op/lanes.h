@@ -11,6 +11,36 @@ PIA_INLINE pia_lanes pia_lanes_load(const double *array, const pia_index *at)
     return (pia_lanes){array[at[0]], array[at[1]], array[at[2]], array[at[3]]};
 }
 
+/* To four neighbours. */
+PIA_INLINE void pia_lanes_write(pia_lanes four, double *to)
+{
+    memcpy(to, &four, sizeof four);
+}
+
+/* Rows to columns and back. */
+PIA_INLINE void pia_lanes_transpose(pia_lanes square[PIA_LANES])
+{
+    pia_lanes even = __builtin_shufflevector(square[0], square[1], 0, 4, 2, 6);
+    pia_lanes odd = __builtin_shufflevector(square[0], square[1], 1, 5, 3, 7);
+    pia_lanes even_below = __builtin_shufflevector(square[2], square[3], 0, 4, 2, 6);
+    pia_lanes odd_below = __builtin_shufflevector(square[2], square[3], 1, 5, 3, 7);
+    square[0] = __builtin_shufflevector(even, even_below, 0, 1, 4, 5);
+    square[1] = __builtin_shufflevector(odd, odd_below, 0, 1, 4, 5);
+    square[2] = __builtin_shufflevector(even, even_below, 2, 3, 6, 7);
+    square[3] = __builtin_shufflevector(odd, odd_below, 2, 3, 6, 7);
+}
+
+/* `yes` where the mask is set, `no` elsewhere. */
+PIA_INLINE pia_lanes pia_lanes_choose(pia_lane_masks mask, pia_lanes yes, pia_lanes no)
+{
+    return (pia_lanes)((mask & (pia_lane_masks)yes) | (~mask & (pia_lane_masks)no));
+}
+
+PIA_INLINE int pia_lanes_all(pia_lane_masks mask)
+{
+    return (mask[0] & mask[1] & mask[2] & mask[3]) != 0;
+}
+
 /* Basis values at t as pia_basis_values gives them, but with one division for each pair of neighbours: their quotients add up to 1,
  * and are exactly 0 and 1 at a knot. knot[k] is the knot at span - degree + 1 + k, k < 2 degree. */
 PIA_INLINE void pia_lanes_basis(const pia_lanes *knot, int degree, pia_lanes t, pia_lanes *value)
@@ -21,6 +51,39 @@ PIA_INLINE void pia_lanes_basis(const pia_lanes *knot, int degree, pia_lanes t, 
         for (int r = 0; r < d; r++) {
             pia_lanes left = knot[degree + r - d], right = knot[degree + r];
             pia_lanes part = value[r] * ((t - left) / (right - left));
+            value[r] = carried + (value[r] - part);
+            carried = part;
+        }
+        value[d] = carried;
+    }
+}
+
+/* The quotients' denominators alone, inverted: [degree (degree + 1) / 2], those of degree 1 first. */
+PIA_INLINE void pia_lanes_inverses(const pia_lanes *knot, int degree, pia_lanes *inverse)
+{
+    for (int d = 1; d <= degree; inverse += d++)
+        for (int r = 0; r < d; r++) inverse[r] = 1 / (knot[degree + r] - knot[degree + r - d]);
+}
+
+/* The same for the next span, whose last knot is `next`: one division a degree. */
+PIA_INLINE void pia_lanes_advance(pia_lanes *knot, int degree, pia_lanes next, pia_lanes *inverse)
+{
+    for (int k = 0; k + 1 < 2 * degree; k++) knot[k] = knot[k + 1];
+    knot[2 * degree - 1] = next;
+    for (int d = 1; d <= degree; inverse += d++) {
+        for (int r = 0; r + 1 < d; r++) inverse[r] = inverse[r + 1];
+        inverse[d - 1] = 1 / (knot[degree + d - 1] - knot[degree - 1]);
+    }
+}
+
+/* Basis values from the inverses; exactly 0 where they should be at the left knot. */
+PIA_INLINE void pia_lanes_quick_basis(const pia_lanes *knot, const pia_lanes *inverse, int degree, pia_lanes t, pia_lanes *value)
+{
+    value[0] = (pia_lanes){1, 1, 1, 1};
+    for (int d = 1; d <= degree; inverse += d++) {
+        pia_lanes carried = {0};
+        for (int r = 0; r < d; r++) {
+            pia_lanes part = value[r] * ((t - knot[degree + r - d]) * inverse[r]);
             value[r] = carried + (value[r] - part);
             carried = part;
         }

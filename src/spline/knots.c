@@ -1,9 +1,11 @@
 #include "knots.h"
 
+#include "clones.h"
 #include "kernel.h"
 
 #include <float.h>
 #include <math.h>
+#include <string.h>
 
 static pia_status check_counts(pia_context *context, int degree, pia_index count, pia_index control)
 {
@@ -51,40 +53,65 @@ static pia_status check_multiplicities(pia_context *context, int degree, const d
     return PIA_OK;
 }
 
+enum { BLOCK = 2048 }; /* knots that stay in the first-level cache between their check and their copy */
+
 typedef struct inner_knots {
     const double *knots; /* without the first one */
     int degree;
+    double *copy; /* NULL: none is wanted */
 } inner_knots;
 
 /* What the checks above ask of a knot, the next one and the one `degree` further on. */
-static int are_in_order(const void *data, pia_index from, pia_index to)
+PIA_CLONES static int are_in_order(const double *knots, pia_index count, int degree)
+{
+    int all = 1;
+    for (pia_index i = 0; i < count; i++) {
+        double gap = knots[i + 1] - knots[i];
+        all &= ((gap == 0) | (gap >= DBL_MIN)) & (knots[i] < knots[i + degree]);
+    }
+    return all;
+}
+
+static int check_inner(const void *data, pia_index from, pia_index to)
 {
     const inner_knots *inner = data;
     int all = 1;
-    for (pia_index i = from; i < to; i++) {
-        double gap = inner->knots[i + 1] - inner->knots[i];
-        all &= ((gap == 0) | (gap >= DBL_MIN)) & (inner->knots[i] < inner->knots[i + inner->degree]);
+    for (pia_index begin = from, end; begin < to; begin = end) {
+        end = to - begin > BLOCK ? begin + BLOCK : to;
+        all &= are_in_order(inner->knots + begin, end - begin, inner->degree);
+        if (inner->copy != NULL) memcpy(inner->copy + begin, inner->knots + begin, (size_t)(end - begin) * sizeof(double));
     }
     return all;
 }
 
 /* Found side by side; where the knots are not plainly good, the checks above find out why. */
-static int are_good(pia_context *context, int degree, const double *knots, pia_index control)
+static int are_good(pia_context *context, int degree, const double *knots, pia_index control, double *copy)
 {
-    inner_knots inner = {knots + 1, degree};
+    inner_knots inner = {knots + 1, degree, copy != NULL ? copy + 1 : NULL};
     double length = knots[control] - knots[0];
     for (int k = 0; k < degree; k++)
         if (knots[k] != knots[k + 1] || knots[control + k] != knots[control + k + 1]) return 0;
-    return isfinite(length) && pia_all(context, control - 1, are_in_order, &inner);
+    return isfinite(length) && pia_all(context, control - 1, check_inner, &inner);
+}
+
+pia_status pia_knots_copy(pia_context *context, int degree, const double *knots, pia_index count, pia_index control, double *copy)
+{
+    pia_status status = check_counts(context, degree, count, control);
+    if (status != PIA_OK) return status;
+    if (are_good(context, degree, knots, control, copy)) {
+        if (copy != NULL) copy[0] = knots[0];
+        if (copy != NULL) memcpy(copy + control, knots + control, (size_t)(degree + 1) * sizeof *copy);
+        return PIA_OK;
+    }
+    status = check_order(context, knots, count);
+    if (status == PIA_OK) status = check_multiplicities(context, degree, knots, control);
+    if (status == PIA_OK && copy != NULL) pia_copy(context, copy, knots, count);
+    return status;
 }
 
 pia_status pia_knots_check(pia_context *context, int degree, const double *knots, pia_index count, pia_index control)
 {
-    pia_status status = check_counts(context, degree, count, control);
-    if (status != PIA_OK || are_good(context, degree, knots, control)) return status;
-    status = check_order(context, knots, count);
-    if (status == PIA_OK) status = check_multiplicities(context, degree, knots, control);
-    return status;
+    return pia_knots_copy(context, degree, knots, count, control, NULL);
 }
 
 static pia_index last_span(const double *knots, int degree, pia_index control)

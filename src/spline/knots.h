@@ -8,6 +8,8 @@
 
 /* Finite, non-decreasing, clamped, inside multiplicity at most degree, domain not empty. Errors name the index and the value. */
 pia_status pia_knots_check(pia_context *context, int degree, const double *knots, pia_index count, pia_index control);
+/* The same, and copy [count] = knots in the same pass; undefined where they are refused. */
+pia_status pia_knots_copy(pia_context *context, int degree, const double *knots, pia_index count, pia_index control, double *copy);
 
 /* The span s with U[s] <= t < U[s+1], degree <= s < control; the right end of the domain belongs to the last span that is not
  * empty, and t outside the domain to the first or last one. O(log control). */

@@ -4,7 +4,10 @@
 
 enum { ROWS = 8192 + 37, MAX_COMPONENTS = 4 };
 
-/* An open curve through ROWS points on knots by averaging. `spread`: parameter steps lie between 1 and that. */
+/* An open curve through ROWS points. `spread`: parameter steps lie between 1 and that. Knots by averaging follow uneven parameters now
+ * earlier and now later; knots at the parameters (not-a-knot, odd degrees) one a row. */
+typedef enum placement { AVERAGED, AT_PARAMETERS } placement;
+
 typedef struct curve {
     pia_context *context;
     int degree, dim;
@@ -24,7 +27,7 @@ static pia_context *context_with(int threads)
     return context;
 }
 
-static void place(const curve *c)
+static void place(const curve *c, placement kind)
 {
     for (pia_index i = 0; i <= c->degree; i++) {
         c->knots[i] = c->parameters[0];
@@ -33,11 +36,11 @@ static void place(const curve *c)
     for (pia_index i = 1; i < ROWS - c->degree; i++) {
         double sum = 0;
         for (int k = 0; k < c->degree; k++) sum += c->parameters[i + k];
-        c->knots[c->degree + i] = sum / c->degree;
+        c->knots[c->degree + i] = kind == AVERAGED ? sum / c->degree : c->parameters[i + (c->degree - 1) / 2];
     }
 }
 
-static curve *open_curve(int degree, int dim, double spread, int threads)
+static curve *open_curve(int degree, int dim, double spread, placement kind, int threads)
 {
     curve *c = malloc(sizeof *c);
     assert_non_null(c);
@@ -53,7 +56,7 @@ static curve *open_curve(int degree, int dim, double spread, int threads)
         for (int d = 0; d < dim; d++) c->points[i * dim + d] = 3 + sin(20 * t + d) + 0.1 * problem_random(&seed);
     }
     for (int d = 0; d < dim; d++) c->origin[d] = 3 - 0.1 * d;
-    place(c);
+    place(c, kind);
     assert_ok(c->context, pia_collocation_open(c->context, degree, PIA_MAP_IDENTITY, 0, c->knots, ROWS, c->parameters, ROWS,
                                                PIA_WITHOUT_BEGINS, &c->line));
     assert_ok(c->context, pia_op_curve_open(c->context, &c->line, NULL, dim, &c->op));
@@ -99,40 +102,70 @@ static double *take_control(const curve *c)
     return x;
 }
 
+static void check_step(int degree, int dim, double spread, placement kind)
+{
+    curve *c = open_curve(degree, dim, spread, kind, 2);
+    double *x = take_control(c), *start = take_control(c), moved = 0;
+    pia_step_errors errors;
+    pia_index row;
+    int done = 0;
+    assert_ok(c->context, pia_windows_step(c->op, NULL, &c->targets, x, &errors, &done));
+    assert_int_equal(done, 1);
+    assert_true(largest_error(c, x, &row) < 1e-12);
+    assert_true(errors.after.max < 1e-12);
+    assert_int_equal(errors.after.count, ROWS);
+    for (pia_index i = 0; i < ROWS * dim; i++) start[i] = c->points[i] - c->origin[i % dim];
+    assert_near(errors.before.max, largest_error(c, start, &row), 1e-14);
+    assert_int_equal(errors.before.max_row, row);
+    assert_int_equal(errors.before.count, ROWS);
+    for (pia_index i = 0; i < ROWS; i++) {
+        double square = 0;
+        for (int d = 0; d < dim; d++) square += pow(x[i * dim + d] - start[i * dim + d], 2);
+        moved = fmax(moved, sqrt(square));
+    }
+    assert_near(errors.moved, moved, 1e-14 * (1 + moved));
+    free(x), free(start);
+    close_curve(c);
+}
+
 static void the_targets_move_to_the_interpolating_curve(void **state)
 {
     (void)state;
     for (int degree = 1; degree <= 7; degree++)
-        for (int dim = 1; dim <= MAX_COMPONENTS; dim++) {
-            curve *c = open_curve(degree, dim, 10, 2);
-            double *x = take_control(c), *start = take_control(c), moved = 0;
-            pia_step_errors errors;
-            pia_index row;
-            int done = 0;
-            assert_ok(c->context, pia_windows_step(c->op, NULL, &c->targets, x, &errors, &done));
-            assert_int_equal(done, 1);
-            assert_true(largest_error(c, x, &row) < 1e-12);
-            assert_true(errors.after.max < 1e-12);
-            assert_int_equal(errors.after.count, ROWS);
-            for (pia_index i = 0; i < ROWS * dim; i++) start[i] = c->points[i] - c->origin[i % dim];
-            assert_near(errors.before.max, largest_error(c, start, &row), 1e-14);
-            assert_int_equal(errors.before.max_row, row);
-            assert_int_equal(errors.before.count, ROWS);
-            for (pia_index i = 0; i < ROWS; i++) {
-                double square = 0;
-                for (int d = 0; d < dim; d++) square += pow(x[i * dim + d] - start[i * dim + d], 2);
-                moved = fmax(moved, sqrt(square));
-            }
-            assert_near(errors.moved, moved, 1e-14);
-            free(x), free(start);
-            close_curve(c);
-        }
+        for (int dim = 1; dim <= MAX_COMPONENTS; dim++) check_step(degree, dim, dim % 2 == 0 ? 10 : 3, AVERAGED);
+}
+
+static void rows_one_a_span_are_no_different(void **state)
+{
+    (void)state;
+    for (int degree = 1; degree <= 7; degree++) check_step(degree, 3, 1, AVERAGED);
+    for (int dim = 1; dim <= MAX_COMPONENTS; dim++) check_step(3, dim, 3, AT_PARAMETERS);
+    for (int degree = 1; degree <= 7; degree += 2) check_step(degree, 2, 2, AT_PARAMETERS);
+}
+
+static void curves_far_from_the_origin_lose_nothing(void **state)
+{
+    (void)state;
+    for (int kind = AVERAGED; kind <= AT_PARAMETERS; kind++) {
+        curve *c = open_curve(3, 3, 3, (placement)kind, 2);
+        double *x = take_control(c), *same = take_control(c);
+        pia_step_errors errors;
+        int done;
+        assert_ok(c->context, pia_windows_step(c->op, NULL, &c->targets, x, &errors, &done));
+        for (pia_index i = 0; i < ROWS * 3; i++) c->points[i] += 1 << 20;
+        for (int d = 0; d < 3; d++) c->origin[d] += 1 << 20;
+        assert_ok(c->context, pia_windows_step(c->op, NULL, &c->targets, same, &errors, &done));
+        assert_true(errors.after.max < 1e-14);
+        for (pia_index i = 0; i < ROWS * 3; i++) assert_near(x[i], same[i], 1e-9); /* the points themselves are as coarse as that */
+        free(x), free(same);
+        close_curve(c);
+    }
 }
 
 static void any_control_points_move_to_the_same_curve(void **state)
 {
     (void)state;
-    curve *c = open_curve(3, 3, 10, 2);
+    curve *c = open_curve(3, 3, 10, AVERAGED, 2);
     double *start = take_control(c), *x = take_control(c), *same = take_control(c);
     pia_step_errors errors;
     uint64_t seed = 3;
@@ -153,7 +186,7 @@ static void errors_are_told_as_they_are_on_uneven_data(void **state)
 {
     (void)state;
     for (int degree = 2; degree <= 7; degree++) {
-        curve *c = open_curve(degree, 2, 1e4, 2);
+        curve *c = open_curve(degree, 2, 1e4, AVERAGED, 2);
         double *x = take_control(c), largest = 0;
         pia_step_errors errors;
         pia_index row;
@@ -173,7 +206,7 @@ static void a_vanishing_pivot_is_told(void **state)
     static const pia_index at[] = {2, ROWS / 2, ROWS - 3}; /* here the row of c has no hold on unknown c */
     for (size_t k = 0; k < sizeof at / sizeof *at; k++)
         for (int degree = 1; degree <= 3; degree++) {
-            curve *c = open_curve(degree, 1, 10, 2);
+            curve *c = open_curve(degree, 1, 10, AVERAGED, 2);
             double *x = take_control(c), t = c->knots[at[k] + degree + 1];
             pia_step_errors errors;
             int done = 1;
@@ -193,7 +226,7 @@ static void the_number_of_threads_changes_no_bit(void **state)
         double *first = NULL;
         pia_step_errors first_errors, errors;
         for (size_t k = 0; k < sizeof threads / sizeof *threads; k++) {
-            curve *c = open_curve(degree, 3, 10, threads[k]);
+            curve *c = open_curve(degree, 3, 10, AVERAGED, threads[k]);
             double *x = take_control(c);
             int done;
             assert_ok(c->context, pia_windows_step(c->op, NULL, &c->targets, x, &errors, &done));
@@ -217,7 +250,7 @@ static void the_number_of_threads_changes_no_bit(void **state)
 static void only_long_open_curves_are_suited(void **state)
 {
     (void)state;
-    curve *c = open_curve(3, 1, 10, 1);
+    curve *c = open_curve(3, 1, 10, AVERAGED, 1);
     assert_ok(c->context, pia_op_freeze(c->op, 5, 1));
     assert_int_equal(pia_windows_suit(c->op), 0);
     assert_ok(c->context, pia_op_freeze(c->op, 5, 0));
@@ -230,7 +263,8 @@ static void only_long_open_curves_are_suited(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(the_targets_move_to_the_interpolating_curve), cmocka_unit_test(any_control_points_move_to_the_same_curve),
+        cmocka_unit_test(the_targets_move_to_the_interpolating_curve), cmocka_unit_test(rows_one_a_span_are_no_different),
+        cmocka_unit_test(curves_far_from_the_origin_lose_nothing),     cmocka_unit_test(any_control_points_move_to_the_same_curve),
         cmocka_unit_test(errors_are_told_as_they_are_on_uneven_data),  cmocka_unit_test(a_vanishing_pivot_is_told),
         cmocka_unit_test(the_number_of_threads_changes_no_bit),        cmocka_unit_test(only_long_open_curves_are_suited),
     };
