@@ -11,7 +11,7 @@
 enum { PIA_BLOCK = 64 };
 
 /* What lies so many rows ahead is fetched: processors do not look past the end of a page themselves. */
-enum { PIA_ROWS_AHEAD = 256 };
+enum { PIA_ROWS_AHEAD = 1024 };
 
 PIA_INLINE int pia_block_count(const pia_run *run, pia_index done)
 {

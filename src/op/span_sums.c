@@ -8,7 +8,7 @@
 
 /* Below FEW points a function, evaluating them is cheaper than the change of basis. PIECE: rows of a span that one task sums; longer
  * spans are shared between tasks. GRAIN: rows a task gets when spans are short. BLOCK: rows that are summed at a time. */
-enum { FEW = 2, PIECE = 262144, GRAIN = 16384, MAX_CHUNKS = 256, BLOCK = 1024 };
+enum { FEW = 2, PIECE = 262144, GRAIN = 16384, MAX_CHUNKS = 256, BLOCK = 512 };
 
 int pia_span_room(int degree, int dim)
 {
