@@ -1,3 +1,4 @@
+#include <float.h>
 #include <math.h>
 
 #include "evaluate.h"
@@ -14,6 +15,7 @@ typedef struct sweep {
     const pia_model *model;
     pia_index count, chunks; /* spans from degree on, empty ones too */
     double scale;            /* of the control points: squares of speeds over it neither overflow nor vanish */
+    double rounding;         /* of a point, over the scale: no piece is known better */
     double *part;            /* [chunks] */
 } sweep;
 
@@ -34,12 +36,13 @@ static double gauss(const sweep *s, double low, double high, pia_index *hint)
     return half * sum;
 }
 
-/* Halved until both halves together agree with the whole; a cusp is closed in on, where its share no longer counts. */
+/* Halved until both halves together agree with the whole; a cusp is closed in on, where its share no longer counts. In a short span far
+ * from the origin the speed itself is noise beyond the rounding of its ends, which no halving removes. */
 static double integrate(const sweep *s, double low, double high, double whole, int depth, pia_index *hint)
 {
     double middle = low + (high - low) / 2;
     double left = gauss(s, low, middle, hint), right = gauss(s, middle, high, hint);
-    if (depth == DEEPEST || !(fabs(left + right - whole) > 1e-12 * (left + right))) return left + right;
+    if (depth == DEEPEST || !(fabs(left + right - whole) > fmax(1e-12 * (left + right), s->rounding))) return left + right;
     return integrate(s, low, middle, left, depth + 1, hint) + integrate(s, middle, high, right, depth + 1, hint);
 }
 
@@ -57,10 +60,11 @@ static void length_of_chunk(void *work, pia_index chunk)
     s->part[chunk] = sum;
 }
 
-/* The longest side of the control points' box. */
-static double find_scale(const pia_model *model)
+/* The longest side of the control points' box; *largest is their largest coordinate. */
+static double find_scale(const pia_model *model, double *largest)
 {
     double scale = 0;
+    *largest = 0;
     int width = pia_model_width(model);
     for (int c = 0; c < model->dim; c++) {
         double low = INFINITY, high = -INFINITY;
@@ -71,6 +75,7 @@ static double find_scale(const pia_model *model)
             high = fmax(high, x);
         }
         scale = fmax(scale, high - low);
+        *largest = fmax(*largest, fmax(high, -low));
     }
     return scale;
 }
@@ -79,10 +84,12 @@ pia_status pia_model_length(pia_context *context, const pia_model *model, double
 {
     if (model == NULL || out == NULL) return pia_fail(context, PIA_E_ARGUMENT, "pia_model_length needs a model and out");
     if (model->directions != 1) return pia_fail(context, PIA_E_ARGUMENT, "only a curve has a length; this model is a surface");
-    double part[MOST_CHUNKS], sum = 0;
-    sweep s = {.model = model, .count = model->control[0] - model->degree[0], .scale = find_scale(model), .part = part};
+    double part[MOST_CHUNKS], sum = 0, largest;
+    sweep s = {.model = model, .count = model->control[0] - model->degree[0], .part = part};
+    s.scale = find_scale(model, &largest);
     s.chunks = pia_chunk_count(s.count, GRAIN);
     if (s.scale > 0) {
+        s.rounding = 4 * (model->degree[0] + 1) * DBL_EPSILON * (largest / s.scale);
         pia_for_each(context, s.chunks, length_of_chunk, &s);
         for (pia_index k = 0; k < s.chunks; k++) sum += part[k];
     }

@@ -92,6 +92,28 @@ static void the_length_stays_when_the_form_changes(void **state)
         }
 }
 
+/* Where spans are short and coordinates large the speed is noise in its last digits, which must not be chased. */
+static void a_place_far_from_the_origin_changes_no_length(void **state)
+{
+    (void)state;
+    enum { COUNT = 1000, DEGREE = 3 };
+    const int degree = DEGREE;
+    const pia_index control = COUNT;
+    double knots[COUNT + DEGREE + 1], points[COUNT * 2], length[2] = {0, 0};
+    for (int i = 0; i < COUNT + DEGREE + 1; i++) knots[i] = fmin(fmax(i - DEGREE, 0), COUNT - DEGREE);
+    for (int far = 0; far < 2; far++) {
+        for (int i = 0; i < COUNT; i++) {
+            points[2 * i] = sin(0.1 * i) + far * 5e6;
+            points[2 * i + 1] = cos(0.13 * i) + far * 5e6;
+        }
+        pia_model *model = NULL;
+        assert_ok(NULL, pia_model_create(NULL, 1, &degree, (const double *const[]){knots}, &control, 2, points, NULL, &model));
+        assert_ok(NULL, pia_model_length(NULL, model, &length[far]));
+        pia_model_destroy(model);
+    }
+    assert_near(length[1], length[0], 1e-8 * length[0]);
+}
+
 static void a_point_has_length_zero_and_a_surface_none(void **state)
 {
     (void)state;
@@ -232,6 +254,7 @@ int main(void)
         cmocka_unit_test(lengths_of_known_curves),
         cmocka_unit_test(the_length_of_a_polygon_is_the_sum_of_its_sides),
         cmocka_unit_test(the_length_stays_when_the_form_changes),
+        cmocka_unit_test(a_place_far_from_the_origin_changes_no_length),
         cmocka_unit_test(a_point_has_length_zero_and_a_surface_none),
         cmocka_unit_test(the_box_of_an_arc_touches_it),
         cmocka_unit_test(the_box_of_a_parabola_reaches_its_vertex),
