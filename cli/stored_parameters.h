@@ -5,8 +5,8 @@
 #include "session.h"
 
 /* One parameter (or pair) for each of the points that the model was fitted to, as pia_model_deviation takes them: the array that the
- * model carries, or computed again by the parametrization that its report names. NULL when the model knows neither, or when it was
- * fitted to another number of points. Kept by the session. */
+ * model carries, or computed again by the parametrization that its report names. Rows that the fit of a curve dropped have that of
+ * the row they repeat. NULL when the model knows neither, or when it was fitted to another number of points. Kept by the session. */
 const double *stored_parameters(struct session *session, const pia_model *model, const pia_points_info *points);
 /* Parameters of a named parametrization on the domain of the model; *out is NULL when points have none of their own, because they
  * repeat. Kept by the session. */

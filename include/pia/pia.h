@@ -335,8 +335,11 @@ void pia_model_control(const pia_model *model, double *points, double *weights);
 int pia_model_report(const pia_model *model, pia_report *out);
 /* Note number `index` of the fit that made the model; NULL past the end. */
 const char *pia_model_note(const pia_model *model, pia_index index);
-/* Parameters of the data the model was fitted to, where it carries them: as in pia_fit_parameters; NULL and 0 otherwise. */
+/* Parameters of the data the model was fitted to, where it carries them: as in pia_fit_parameters, but in the order of the data rows,
+ * without those dropped; NULL and 0 otherwise. */
 const double *pia_model_parameters(const pia_model *model, pia_index *count);
+/* Data rows that the fit did not use because they repeat others, increasing; NULL and 0 when there are none. */
+const pia_index *pia_model_dropped(const pia_model *model, pia_index *count);
 
 /* The same surface, trimmed: the face that lies inside loop 0 and outside the other loops, closed polylines in the parameter plane.
  * vertex_counts: [loop_count], at least 3 each; uv: [sum of vertex_counts x 2], loop after loop, inside the domain. The last vertex

@@ -7,7 +7,7 @@
 typedef struct pia_summary {
     pia_report report;
     pia_notes notes;
-    double *parameters;        /* of the rows used; NULL when none were kept */
+    double *parameters;        /* of the rows used, in the order of the data; NULL when none were kept */
     pia_index parameter_count; /* values in `parameters` */
     pia_index *dropped;        /* data rows that were not used, increasing; NULL when none */
     pia_index dropped_count;

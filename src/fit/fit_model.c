@@ -5,6 +5,8 @@
 #include "knots.h"
 #include "model.h"
 
+#include <string.h>
+
 enum { GRAIN = 16384, MOST_KEPT = 1000000 };
 
 typedef struct controls {
@@ -97,6 +99,31 @@ pia_status pia_fit_bare_model(pia_fit *fit, pia_model **out)
     return is_closed(fit) ? make_closed(fit, out) : make_clamped(fit, out);
 }
 
+/* How many data rows before this one were dropped. */
+static pia_index dropped_before(const pia_fit *fit, pia_index data_row)
+{
+    pia_index low = 0, high = fit->dropped_count;
+    while (low < high) {
+        pia_index middle = low + (high - low) / 2;
+        if (fit->dropped[middle] < data_row)
+            low = middle + 1;
+        else
+            high = middle;
+    }
+    return low;
+}
+
+/* Parameters of rows in the order of the data, which a sorted graph or a turned closed curve has left. */
+static void order_by_row(const pia_fit *fit, double *out)
+{
+    pia_index wide = fit->kind == PIA_SCATTERED ? 2 : 1;
+    if (out == NULL || fit->row == NULL || fit->kind == PIA_GRID) return;
+    for (pia_index i = 0; i < fit->rows; i++) {
+        pia_index place = fit->row[i] - dropped_before(fit, fit->row[i]);
+        memcpy(out + place * wide, fit->parameter[0] + i * wide, (size_t)wide * sizeof *out);
+    }
+}
+
 /* Parameters are kept with the model where they cannot be computed again from the points, given and corrected ones, unless they are so
  * many that a copy would weigh on memory. */
 static pia_status attach_summary(pia_fit *fit, const pia_report *report, pia_model *model)
@@ -113,6 +140,7 @@ static pia_status attach_summary(pia_fit *fit, const pia_report *report, pia_mod
     }
     model->summary = pia_summary_copy(memory, &summary);
     if (model->summary == NULL) return pia_fail(fit->context, PIA_E_MEMORY, "out of memory for the summary of the fit");
+    order_by_row(fit, model->summary->parameters);
     pia_notes_copy(memory, &model->summary->notes, &fit->outcome);
     return PIA_OK;
 }

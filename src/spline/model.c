@@ -206,3 +206,11 @@ const double *pia_model_parameters(const pia_model *model, pia_index *count)
     *count = has ? summary->parameter_count : 0;
     return has ? summary->parameters : NULL;
 }
+
+const pia_index *pia_model_dropped(const pia_model *model, pia_index *count)
+{
+    const pia_summary *summary = model->summary;
+    int has = summary != NULL && summary->dropped != NULL;
+    *count = has ? summary->dropped_count : 0;
+    return has ? summary->dropped : NULL;
+}
