@@ -44,6 +44,27 @@ static void combine(const pia_iterate *iterate, const double *x, const double *f
         for (int d = 0; d < dim; d++) y[k * dim + d] = x[k * dim + d] + factor[d] * y[k * dim + d];
 }
 
+/* p = z + factor p, and slope = (g, p) of it, which is (g, z) while directions stay conjugate. Rounding ends that near the limit; there the
+ * search begins anew along z, so that steps go downhill however many are asked for. */
+static void turn_search(const pia_iterate *iterate, const pia_conjugate *c, const double *z, double *factor, const double *gamma,
+                        double *slope)
+{
+    double *search = c->vector[PIA_CG_SEARCH], lost = 0;
+    const double *g = c->vector[PIA_CG_GRADIENT];
+    combine(iterate, z, factor, search);
+    dot_components(iterate, c, g, search, slope);
+    for (int d = 0; d < iterate->dim; d++) {
+        int kept = fabs(slope[d] - gamma[d]) <= 0.5 * gamma[d];
+        factor[d] = kept;
+        lost += !kept;
+    }
+    if (lost == 0) return;
+    for (pia_index k = 0; k < iterate->op->cols; k++)
+        for (int d = 0; d < iterate->dim; d++)
+            if (factor[d] == 0) search[k * iterate->dim + d] = z[k * iterate->dim + d];
+    dot_components(iterate, c, g, search, slope);
+}
+
 static void renew_gradient(pia_iterate *iterate, pia_conjugate *c)
 {
     double *g = c->vector[PIA_CG_GRADIENT];
@@ -58,22 +79,22 @@ static void renew_gradient(pia_iterate *iterate, pia_conjugate *c)
 void pia_conjugate_step(pia_iterate *iterate, pia_conjugate *c, pia_condition *condition, void *user)
 {
     int dim = iterate->dim;
-    double gamma[PIA_MAX_DIM] = {0}, factor[PIA_MAX_DIM], curvature[PIA_MAX_DIM];
+    double gamma[PIA_MAX_DIM] = {0}, factor[PIA_MAX_DIM], slope[PIA_MAX_DIM], curvature[PIA_MAX_DIM];
     double *g = c->vector[PIA_CG_GRADIENT], *search = c->vector[PIA_CG_SEARCH], *image = c->vector[PIA_CG_IMAGE], *z = iterate->adjust;
     renew_gradient(iterate, c);
     condition(iterate, user, g, z);
     dot_components(iterate, c, g, z, gamma);
     memcpy(factor, gamma, sizeof gamma);
     divide(dim, factor, c->gamma);
-    combine(iterate, z, factor, search);
+    turn_search(iterate, c, z, factor, gamma, slope);
     memcpy(c->gamma, gamma, sizeof gamma);
     pia_product_apply(&c->product, search, dim, image);
     dot_components(iterate, c, search, image, curvature);
-    divide(dim, gamma, curvature);
+    divide(dim, slope, curvature);
     for (pia_index k = 0; k < iterate->op->cols; k++)
         for (int d = 0; d < dim; d++) {
-            iterate->adjust[k * dim + d] = gamma[d] * search[k * dim + d];
-            g[k * dim + d] -= gamma[d] * image[k * dim + d];
+            iterate->adjust[k * dim + d] = slope[d] * search[k * dim + d];
+            g[k * dim + d] -= slope[d] * image[k * dim + d];
         }
     c->age = c->age + 1 < MAX_AGE ? c->age + 1 : 0;
 }

@@ -35,7 +35,7 @@ static void longest_chunk(void *work, pia_index chunk)
     for (pia_index i = pia_chunk_begin(s->count, s->chunks, chunk); i < pia_chunk_begin(s->count, s->chunks, chunk + 1); i++) {
         double square = 0;
         for (int d = 0; d < s->dim; d++) square += s->x[i * s->dim + d] * s->x[i * s->dim + d];
-        if (!(square <= worst)) worst = square;
+        if (!(square <= worst) && !isnan(worst)) worst = square;
     }
     s->part[chunk] = worst;
 }
@@ -56,7 +56,7 @@ double pia_iterate_longest(const pia_iterate *iterate, const double *x)
     scan s = {x, x, iterate->op->cols, chunk_count(iterate->op->cols), iterate->dim, part};
     pia_for_each(iterate->context, s.chunks, longest_chunk, &s);
     for (pia_index c = 0; c < s.chunks; c++)
-        if (!(part[c] <= worst)) worst = part[c];
+        if (!(part[c] <= worst) && !isnan(worst)) worst = part[c];
     return sqrt(worst);
 }
 

@@ -40,6 +40,8 @@ pia_status pia_solve_begin(pia_solve *solve, const pia_values *method_values, co
     iterate->stalled = iterate->shortened = iterate->finished = 0;
     iterate->relative_gradient = NAN;
     iterate->adjust_max = 0;
+    solve->reach = iterate->extent;
+    if (iterate->points != NULL) solve->reach = fmax(solve->reach, pia_iterate_longest(iterate, iterate->points));
     solve->rate = solve->last_error = solve->best_error = NAN;
     solve->safe_error = INFINITY;
     solve->blocked = 0;

@@ -31,6 +31,7 @@ typedef struct pia_solve {
     pia_stop stop;
     double seconds;     /* spent so far */
     double start_error; /* largest deviation of iterate 0; NAN until measured */
+    double reach;       /* size of the problem, units of the points: the extent, or how far the first control points are */
     double rate;        /* observed factor of the error an iteration, smoothed; NAN until known */
     double *safe;       /* the iterate to return to when steps grow or constraints cannot be met [cols x dim]; NULL until needed */
     double safe_error;  /* its largest deviation, or violation */

@@ -9,6 +9,15 @@ static int is_stuck(const pia_solve *solve)
     return solve->standing || iterate->errors.max <= 1e-14 * iterate->extent;
 }
 
+/* No step that leads anywhere is that much longer than the problem is large; those of a diverging iteration are soon, and then not
+ * finite. Methods that take one step go as far as the solution is. */
+static int runs_away(const pia_solve *solve)
+{
+    static const double FARTHEST = 1e4;
+    if (solve->method->needs & PIA_IS_FINITE) return 0;
+    return !(solve->iterate->adjust_max <= FARTHEST * solve->reach);
+}
+
 int pia_stop_needs_errors(const pia_solve *solve)
 {
     const pia_rules *rules = &solve->rules;
@@ -32,6 +41,7 @@ pia_stop pia_stop_after(const pia_solve *solve)
     const pia_rules *rules = &solve->rules;
     if (iterate->finished) return PIA_STOP_FINITE;
     if (rules->tolerance > 0 && iterate->errors_known && iterate->errors.max <= rules->tolerance) return PIA_STOP_TOLERANCE;
+    if (runs_away(solve)) return PIA_STOP_STALLED;
     if (rules->gradient > 0 && iterate->relative_gradient <= rules->gradient) return PIA_STOP_GRADIENT;
     if (iterate->stalled) return PIA_STOP_STALLED;
     if (rules->change > 0 && is_stuck(solve)) return PIA_STOP_STALLED;

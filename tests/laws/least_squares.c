@@ -313,6 +313,58 @@ static void gaps_leave_every_method_bounded(void **state)
     pia_context_destroy(context);
 }
 
+/* Asked for thousands of steps more than they need, methods stay at the limit: no rule stops them, rounding leads nowhere. */
+static void no_method_leaves_the_limit(void **state)
+{
+    (void)state;
+    pia_context *context = context_with(1);
+    pia_report report;
+    for (uint64_t seed = 1; seed <= 3; seed++) {
+        problem p = problem_make(PIA_GRID, 3, 0, 1, 12, 6);
+        uint64_t state_of_random = seed;
+        double extent = 0;
+        for (int i = 0; i < 144; i++) {
+            p.points[i] = (random_number(&state_of_random) - 0.5) * exp(10 * random_number(&state_of_random));
+            extent = fmax(extent, fabs(p.points[i]));
+        }
+        double *limit = fitted(context, &p, "direct", &report);
+        p.options.max_iterations = 5000;
+        p.options.stop_change = p.options.stop_gradient = 0;
+        for (int k = 0; k < METHODS; k++) {
+            if (strcmp(methods[k], "gauss-seidel") == 0) continue; /* curves only */
+            double *points = fitted(context, &p, methods[k], &report);
+            for (int i = 0; i < 36; i++) assert_near(points[i], limit[i], 1e-4 * extent);
+            assert_true(report.max_error <= extent);
+            free(points);
+        }
+        free(limit);
+        problem_release(&p);
+    }
+    pia_context_destroy(context);
+}
+
+/* A step too long for the problem: the fit ends with what it has, which is finite, and says that it stalled. */
+static void a_diverging_fit_ends_with_a_finite_model(void **state)
+{
+    (void)state;
+    pia_context *context = context_with(1);
+    static const char *const steps[] = {"step=3", "step=1000", "step=1e200"};
+    for (int k = 0; k < 3; k++) {
+        pia_report report;
+        problem p = problem_make(PIA_CURVE, 3, 0, 2, 60, 12);
+        p.options.method_options = &steps[k];
+        p.options.method_option_count = 1;
+        p.options.stop_change = p.options.stop_gradient = 0;
+        double *points = fitted(context, &p, "lspia", &report);
+        assert_int_equal(report.stop, PIA_STOP_STALLED);
+        for (int i = 0; i < 24; i++) assert_true(fabs(points[i]) < 1e6);
+        assert_true(report.rms_error > 0 && report.rms_error <= report.max_error && report.max_error < 1e6);
+        free(points);
+        problem_release(&p);
+    }
+    pia_context_destroy(context);
+}
+
 /* Dini's surface of 81 x 81 points by 31 x 31 control points, picked from the data at the start: the counts that a study of 2026
  * published for its stop rule, |g|^2 < 1e-6 |g_0|^2. */
 static pia_model *dini_start(pia_context *context, const double *points)
@@ -382,6 +434,8 @@ int main(void)
         cmocka_unit_test(iterates_are_the_same_with_and_without_a_normal_form),
         cmocka_unit_test(the_thread_count_changes_no_bit),
         cmocka_unit_test(gaps_leave_every_method_bounded),
+        cmocka_unit_test(no_method_leaves_the_limit),
+        cmocka_unit_test(a_diverging_fit_ends_with_a_finite_model),
         cmocka_unit_test(published_counts_are_met_on_dinis_surface),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
