@@ -95,6 +95,9 @@ static pia_status bound(pia_fit *fit, const double *points, pia_index rows, int 
                     (long long)all.bad, d, points[all.bad * dim + d]);
 }
 
+/* Deviations are squared and summed: beyond these sides the squares of a large or of a small one would be infinite or nothing. */
+static const double smallest_side = 1e-130, largest_side = 1e130;
+
 static pia_status set_box(pia_fit *fit, const double *low, const double *high)
 {
     double square = 0, largest = 0;
@@ -102,11 +105,13 @@ static pia_status set_box(pia_fit *fit, const double *low, const double *high)
         fit->low[d] = low[d];
         fit->high[d] = high[d];
         double side = fit->high[d] - fit->low[d];
-        if (!isfinite(side))
-            return pia_fail(fit->context, PIA_E_DATA, "component %d spans more than a double can hold; rescale the points", d);
+        if (!(side <= largest_side))
+            return pia_fail(fit->context, PIA_E_DATA, "component %d spans %g, more than %g; rescale the points", d, side, largest_side);
         fit->origin[d] = fit->low[d] + side / 2;
         largest = fmax(largest, side);
     }
+    if (largest > 0 && largest < smallest_side)
+        return pia_fail(fit->context, PIA_E_DATA, "the points span %g, less than %g; rescale them", largest, smallest_side);
     for (int d = 0; d < fit->dim && largest > 0; d++) square += pow((fit->high[d] - fit->low[d]) / largest, 2);
     fit->extent = largest * sqrt(square);
     if (largest > 0 || fit->function_graph) {
