@@ -4,6 +4,7 @@
 
 #include "command.h"
 #include "file_name.h"
+#include "holes.h"
 #include "json_writer.h"
 #include "model_source.h"
 #include "number_file.h"
@@ -137,18 +138,30 @@ static void print_json(const pia_deviation *deviation, pia_index row)
     json_end(&json);
 }
 
+/* Distances of the solid points to the places of all; holes have none. */
+static void spread_distances(double *distances, pia_index all, const struct solid *solid)
+{
+    pia_index left = solid->count;
+    for (pia_index i = all; i-- > 0;) distances[i] = left > 0 && solid->row[left - 1] == i ? distances[--left] : NAN;
+}
+
 static int measure(struct request *request, const struct point_set *points, const pia_model *model, pia_deviation *out,
                    double *distances)
 {
     struct session *session = request->session;
-    const pia_index *count = points->info.count;
+    const pia_points_info *info = &points->info;
     const double *parameters;
     int code = find_parameters(request, points, model, &parameters);
     if (code) return code;
+    struct solid solid = points_without_holes(session, info, parameters);
     *out = (pia_deviation){.struct_size = sizeof *out};
-    return session_check(
-        session, pia_model_deviation(session->context, model, points->info.points, count[0] * count[1], parameters, out, distances),
-        request->source.path);
+    code = session_check(session,
+                         pia_model_deviation(session->context, model, solid.points, solid.count, solid.parameters, out, distances),
+                         request->source.path);
+    if (code || !solid.row) return code;
+    spread_distances(distances, info->count[0] * info->count[1], &solid);
+    out->max_error_index = solid.row[out->max_error_index];
+    return EXIT_DONE;
 }
 
 static int compare(const void *a, const void *b)

@@ -2,6 +2,7 @@
 
 #include "command.h"
 #include "file_name.h"
+#include "holes.h"
 #include "json_writer.h"
 #include "model_source.h"
 #include "point_source.h"
@@ -143,8 +144,6 @@ static int draw(struct request *request, const struct model_set *set, const stru
     struct session *session = request->session;
     const pia_model *const *models = (const pia_model *const *)set->model, *only = NULL;
     pia_index count = set->count, part = request->source.part;
-    const pia_points_info *info = &points->info;
-    struct row_span span = {.count = 0};
     int code = EXIT_DONE;
     if (part != PIA_AUTO && set->count > 1) {
         code = models_choose(set, part, &only);
@@ -152,15 +151,16 @@ static int draw(struct request *request, const struct model_set *set, const stru
         count = 1;
     }
     if (code) return code;
+    struct solid solid = {.count = 0};
     if (request->source.path) {
-        span = points_span(points, part);
         struct point_set shown = points_of_part(points, part);
-        if (count == 1) request->options.parameters = stored_parameters(session, models[0], &shown.info);
+        solid = points_without_holes(session, &shown.info, count == 1 ? stored_parameters(session, models[0], &shown.info) : NULL);
+        request->options.parameters = solid.parameters;
     }
-    const double *first = span.count ? info->points + span.first * info->dim : NULL;
     for (pia_index i = 0; !code && i < request->outputs.count; i++) {
         const char *path = request->outputs.item[i];
-        code = session_check(session, pia_plot(session->context, path, models, count, first, span.count, &request->options), path);
+        code =
+            session_check(session, pia_plot(session->context, path, models, count, solid.points, solid.count, &request->options), path);
     }
     return code;
 }

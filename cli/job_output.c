@@ -2,6 +2,7 @@
 
 #include "file_name.h"
 #include "fit_job.h"
+#include "holes.h"
 #include "stored_parameters.h"
 
 static int check_one(const struct fit_request *request, const char *path)
@@ -49,15 +50,18 @@ static pia_status draw(struct fit_job *job, const char *path, const char *format
     pia_plot_options_init(&options);
     options.format = format;
     pia_points_info shown = job->points.info;
-    pia_index count = 0;
+    struct solid solid = {.count = 0};
     if (job->points.file) {
+        pia_index count = 0;
         shown.points += job->result[0].span.first * shown.dim;
         for (pia_index k = 0; k < job->part_done; k++) count += job->result[k].span.count;
         shown.kind = job->kind;
         if (job->kind != PIA_GRID) shown.count[0] = count;
-        if (job->part_done == 1) options.parameters = stored_parameters(job->session, models[0], &shown);
+        solid =
+            points_without_holes(job->session, &shown, job->part_done == 1 ? stored_parameters(job->session, models[0], &shown) : NULL);
+        options.parameters = solid.parameters;
     }
-    return pia_plot(job->session->context, path, models, job->part_done, count ? shown.points : NULL, count, &options);
+    return pia_plot(job->session->context, path, models, job->part_done, solid.points, solid.count, &options);
 }
 
 static int write_models(struct fit_job *job, const char *path, const char *format, const pia_model *const *models)

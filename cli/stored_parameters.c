@@ -40,26 +40,6 @@ static const double *parameters_by_row(struct session *session, pia_fit *fit, co
     return copy;
 }
 
-/* The parameters that the model carries, one for each row of a curve, dropped ones too. */
-static const double *spread_parameters(struct session *session, const pia_model *model, const pia_points_info *points, int closed)
-{
-    pia_index stored, dropped_count, next = 0, used = 0, all = points->count[0];
-    const double *parameters = pia_model_parameters(model, &stored), *x = points->points;
-    const pia_index *dropped = pia_model_dropped(model, &dropped_count);
-    if (!parameters || stored + dropped_count != all) return NULL;
-    double *copy = session_keep(session, (size_t)all, sizeof *copy);
-    int graph = points->dim > 1;
-    for (pia_index i = 0; i < all; i++) {
-        int here = next < dropped_count && dropped[next] == i;
-        copy[i] = here ? NAN : parameters[used++];
-        next += here;
-        graph = graph && (here || copy[i] == x[i * points->dim]);
-    }
-    for (pia_index i = 0; graph && i < all; i++) copy[i] = x[i * points->dim];
-    fill_dropped(copy, all, closed);
-    return copy;
-}
-
 /* Those of a fit with these options that does not iterate. */
 static pia_status parameters_of_fit(struct session *session, const pia_points_info *points, pia_fit_options *options,
                                     const double **out)
@@ -116,7 +96,51 @@ static const double *parameters_of_report(struct session *session, const pia_mod
     return parameters;
 }
 
-const double *stored_parameters(struct session *session, const pia_model *model, const pia_points_info *points)
+/* The rows that the fit of a curve used. */
+static pia_points_info used_points(struct session *session, const pia_points_info *points, const pia_index *dropped,
+                                   pia_index dropped_count)
+{
+    pia_points_info used = *points;
+    size_t row = (size_t)points->dim * sizeof(double);
+    double *to = session_keep(session, (size_t)points->count[0], row);
+    used.points = to;
+    for (pia_index i = 0, next = 0; i < points->count[0]; i++)
+        if (next < dropped_count && dropped[next] == i)
+            next++;
+        else {
+            memcpy(to, points->points + i * points->dim, row);
+            to += points->dim;
+        }
+    used.count[0] -= dropped_count;
+    return used;
+}
+
+/* Whether these are the first components: those of a function graph, whose rows of equal abscissa differ. */
+static int are_abscissas(const double *parameters, const pia_points_info *points)
+{
+    for (pia_index i = 0; i < points->count[0]; i++)
+        if (points->dim < 2 || parameters[i] != points->points[i * points->dim]) return 0;
+    return 1;
+}
+
+/* Parameters of all rows of a curve from those of the rows used. */
+static const double *spread(struct session *session, const double *parameters, const pia_points_info *points, const pia_index *dropped,
+                            pia_index dropped_count, int graph, int closed)
+{
+    pia_index count = points->count[0];
+    double *all = session_keep(session, (size_t)count, sizeof *all);
+    for (pia_index i = 0, next = 0; i < count; i++)
+        if (next < dropped_count && dropped[next] == i) {
+            all[i] = graph ? points->points[i * points->dim] : NAN;
+            next++;
+        } else
+            all[i] = *parameters++;
+    fill_dropped(all, count, closed);
+    return all;
+}
+
+/* Those of the points that the model was fitted to, dropped rows left out; NULL for others. */
+static const double *parameters_used(struct session *session, const pia_model *model, const pia_points_info *points)
 {
     pia_index stored;
     pia_model_info info = {.struct_size = sizeof info};
@@ -127,9 +151,21 @@ const double *stored_parameters(struct session *session, const pia_model *model,
     if (parameters && stored == info.directions * all) return parameters;
     if (parameters && info.directions == 2 && stored == count[0] + count[1])
         return grid_parameters(session, parameters, parameters + count[0], count);
-    if (parameters && info.directions == 1) return spread_parameters(session, model, points, info.periodic[0]);
-    if (parameters || !pia_model_report(model, &report) || report.kind != points->kind) return NULL;
-    if (report.point_count + (info.directions == 1 ? report.repaired_count : 0) != all) return NULL;
+    if (parameters || !pia_model_report(model, &report) || report.kind != points->kind || report.point_count != all) return NULL;
     if (!registry_has("parametrization", report.parametrization)) return NULL;
     return parameters_of_report(session, model, points, &report);
+}
+
+const double *stored_parameters(struct session *session, const pia_model *model, const pia_points_info *points)
+{
+    pia_model_info info = {.struct_size = sizeof info};
+    pia_index dropped_count;
+    const pia_index *dropped = pia_model_dropped(model, &dropped_count);
+    pia_model_get_info(model, &info);
+    if (info.directions == 2 || !dropped_count || dropped[dropped_count - 1] >= points->count[0])
+        return parameters_used(session, model, points);
+    pia_points_info used = used_points(session, points, dropped, dropped_count);
+    const double *parameters = parameters_used(session, model, &used);
+    if (!parameters) return NULL;
+    return spread(session, parameters, points, dropped, dropped_count, are_abscissas(parameters, &used), info.periodic[0]);
 }
