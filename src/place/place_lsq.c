@@ -1,6 +1,10 @@
 /* Knots so that every span holds about as many different parameters (The NURBS Book, Eq. 9.68 and 9.69). Repeated parameters count
- * once: with n <= m different ones every span then holds at least one, and Schoenberg-Whitney holds. */
+ * once: with n <= m different ones every span then holds at least one. With n = m, where the rule would squeeze the first spans, the
+ * knots are those of interpolation. */
+#include "place.h"
 #include "spacing.h"
+
+extern const pia_placement pia_place_average;
 
 static pia_index count_different(const pia_place_problem *p)
 {
@@ -36,6 +40,7 @@ static void place_closed(const pia_place_problem *p, double *knots)
 
 static pia_status place_different(pia_context *context, const pia_place_problem *p, double *knots)
 {
+    if (p->control == p->count) return pia_place_average.place(context, p, knots);
     if (p->closed)
         place_closed(p, knots);
     else

@@ -116,9 +116,9 @@ static void every_placement_is_clamped_or_exactly_periodic(void **state)
 static void every_basis_function_of_a_square_placement_holds_its_own_data_point(void **state)
 {
     (void)state;
-    const char *const names[] = {"average", "notaknot"};
+    const char *const names[] = {"average", "notaknot", "lsq"};
     double t[64], knots[ROOM];
-    for (int r = 0; r < 2; r++)
+    for (int r = 0; r < 3; r++)
         for (int degree = 1; degree <= 9; degree++)
             for (int closed = 0; closed < 2; closed++) {
                 uneven_parameters(t, 64, closed, (unsigned)(degree + 10));
