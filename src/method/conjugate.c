@@ -44,8 +44,8 @@ static void combine(const pia_iterate *iterate, const double *x, const double *f
         for (int d = 0; d < dim; d++) y[k * dim + d] = x[k * dim + d] + factor[d] * y[k * dim + d];
 }
 
-/* p = z + factor p, and slope = (g, p) of it, which is (g, z) while directions stay conjugate. Rounding ends that near the limit; there the
- * search begins anew along z, so that steps go downhill however many are asked for. */
+/* p = z + factor p, and slope = (g, p) of it, which is (g, z) while directions stay conjugate. Rounding ends that near the limit; there
+ * the search begins anew along z, so that steps go downhill however many are asked for. */
 static void turn_search(const pia_iterate *iterate, const pia_conjugate *c, const double *z, double *factor, const double *gamma,
                         double *slope)
 {
