@@ -90,7 +90,9 @@ typedef struct pia_context_options {
     void *(*allocate)(void *user, size_t size, size_t align); /* NULL: the C library's. size > 0, align a power of two up to 64 */
     void (*release)(void *user, void *block);                 /* must be given with allocate; block may be NULL */
     void (*log)(void *user, int level, const char *text);     /* level 0 detail, 1 information, 2 warning; NULL: silent */
-    void *user;                                               /* handed to the three calls above */
+    void *user;                                               /* handed to the calls of this struct */
+    int (*interrupted)(void *user); /* asked at least once an iteration or round of every fit, costs nothing else; non-zero stops
+                                       the fit, which keeps its model with PIA_STOP_CANCELLED. NULL: never */
 } pia_context_options;
 
 /* The defaults: as many threads as pay, best backend, the C library's memory, silent. */
@@ -236,6 +238,36 @@ typedef struct pia_fit_options {
 
 /* The defaults named at the members; zero, NULL or PIA_AUTO where none is named, as their comments say. */
 void pia_fit_options_init(pia_fit_options *options);
+
+/* What a member of pia_fit_options holds. */
+typedef enum pia_option_type {
+    PIA_OPTION_SWITCH,      /* int, 0 or 1 */
+    PIA_OPTION_INTEGER,     /* int */
+    PIA_OPTION_COUNT,       /* pia_index */
+    PIA_OPTION_NUMBER,      /* double */
+    PIA_OPTION_NAME,        /* const char * */
+    PIA_OPTION_SETTINGS,    /* texts "name=value", and their count */
+    PIA_OPTION_INDICES,     /* const pia_index *, and their count */
+    PIA_OPTION_NUMBERS,     /* const double *, and their count */
+    PIA_OPTION_CONSTRAINTS, /* const pia_constraint *, and their count */
+    PIA_OPTION_MODEL        /* const pia_model * */
+} pia_option_type;
+
+/* A member of pia_fit_options, for programs that fill the struct by name: bindings, settings files. */
+typedef struct pia_option {
+    const char *name; /* of the member */
+    pia_option_type type;
+    size_t offset;                    /* bytes from the start of pia_fit_options */
+    size_t count_offset;              /* of the member with the count of an array; 0: the member is no array */
+    int directions;                   /* 2: an array of two, u and v, and so is the count; 1: one value */
+    int automatic;                    /* 1: numbers may be PIA_AUTO as well; of an array, its count */
+    double minimum, maximum, initial; /* of numbers; initial is the default. Everything else begins as 0 or NULL */
+    const char *values;               /* of names: "word|word", or the registry that lists them; NULL for others */
+    const char *sentence;             /* what it does, with its unit */
+} pia_option;
+
+/* Option number `index` of pia_fit_options, callbacks left out; returns 0 past the end, 1 otherwise. */
+int pia_list_options(pia_index index, pia_option *out);
 
 /* ------------------------------------------------------------------------ the one call, the progressive service ---- */
 

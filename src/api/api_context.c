@@ -33,8 +33,12 @@ pia_status pia_context_create(const pia_context_options *options, pia_context **
     pia_memory memory = o.allocate != NULL ? (pia_memory){o.allocate, o.release, o.user} : *pia_memory_default();
     pia_context *context = pia_memory_take(&memory, 1, sizeof *context);
     if (context == NULL) return PIA_E_MEMORY;
-    *context =
-        (pia_context){.memory = memory, .threads = resolve_threads(o.threads, kernel), .kernel = kernel, .log = o.log, .user = o.user};
+    *context = (pia_context){.memory = memory,
+                             .threads = resolve_threads(o.threads, kernel),
+                             .kernel = kernel,
+                             .log = o.log,
+                             .user = o.user,
+                             .interrupted = o.interrupted};
     *out = context;
     return PIA_OK;
 }

@@ -25,6 +25,11 @@ void pia_log(pia_context *context, int level, const char *format, ...)
     context->log(context->user, level, text);
 }
 
+int pia_interrupted(pia_context *context)
+{
+    return context != NULL && context->interrupted != NULL && context->interrupted(context->user);
+}
+
 const pia_memory *pia_memory_of(const pia_context *context)
 {
     return context != NULL ? &context->memory : pia_memory_default();

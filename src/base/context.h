@@ -14,8 +14,12 @@ struct pia_context {
     const struct pia_kernel *kernel; /* never NULL in a live context */
     void (*log)(void *user, int level, const char *text);
     void *user;
+    int (*interrupted)(void *user);
     char message[512];
 };
+
+/* Whether long work in this context is to stop. context may be NULL. */
+int pia_interrupted(pia_context *context);
 
 /* Stores one line of detail and returns `status`, so that a check is `return pia_fail(...)`. context may be NULL. */
 pia_status pia_fail(pia_context *context, pia_status status, const char *format, ...) __attribute__((format(printf, 3, 4)));

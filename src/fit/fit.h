@@ -9,7 +9,7 @@
  *   fit_noise.c       a tolerance that the noise suggests            fit_dominant.c Park's dominant columns
  *   sequence*.c       control points that stand for data lines       fit_corners.c  corners, found or given
  *   fit_support.c     control points that the data do not hold        fit_correct.c  rounds of parameter correction
- *   refine*.c         knots for a tolerance */
+ *   refine*.c         knots for a tolerance                          fit_options.c  defaults, ranges, sentences of options */
 #ifndef PIA_FIT_FIT_H
 #define PIA_FIT_FIT_H
 
@@ -105,6 +105,8 @@ struct pia_fit {
     double seconds;                  /* spent in opening */
 };
 
+/* Whether numbers and counts of the options are in their ranges. */
+pia_status pia_fit_check_options(pia_fit *fit, int directions);
 /* Leaves the points of an open curve with given parameters unseen: the pass that sums them may look at them as well. */
 pia_status pia_fit_take_data(pia_fit *fit, const pia_data *data);
 /* Looks at points that no such pass will see. */

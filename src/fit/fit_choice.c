@@ -258,8 +258,6 @@ pia_status pia_fit_choose(pia_fit *fit)
     for (int d = 0; d < fit->directions; d++) {
         fit->degree[d] = fit->options.degree[d];
         fit->closed[d] = fit->options.closed[d] != 0;
-        if (fit->degree[d] < 1 || fit->degree[d] > PIA_MAX_DEGREE)
-            return pia_fail(fit->context, PIA_E_ARGUMENT, "degree %d is not between 1 and %d", fit->degree[d], PIA_MAX_DEGREE);
         if (fit->closed[d] && fit->function_graph)
             return pia_fail(fit->context, PIA_E_ARGUMENT,
                             "a function graph cannot be closed; fit the values with given parameters instead");

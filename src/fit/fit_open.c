@@ -25,36 +25,6 @@ void pia_constraint_init(pia_constraint *constraint)
     constraint->at_point = PIA_AUTO;
 }
 
-void pia_fit_options_init(pia_fit_options *options)
-{
-    memset(options, 0, sizeof *options);
-    options->struct_size = sizeof *options;
-    options->degree[0] = options->degree[1] = 3;
-    options->control[0] = options->control[1] = PIA_AUTO;
-    options->robust_scale = PIA_AUTO;
-    options->max_iterations = PIA_AUTO;
-    options->stop_change = options->stop_gradient = PIA_AUTO;
-}
-
-static pia_status check_options(pia_fit *fit)
-{
-    const pia_fit_options *o = &fit->options;
-    pia_context *context = fit->context;
-    if (!(o->tolerance >= 0) || isinf(o->tolerance))
-        return pia_fail(context, PIA_E_ARGUMENT, "tolerance %g is not a finite number >= 0", o->tolerance);
-    if (!(o->time_limit >= 0)) return pia_fail(context, PIA_E_ARGUMENT, "time limit %g is not a number of seconds >= 0", o->time_limit);
-    if (o->max_iterations < 0 && o->max_iterations != PIA_AUTO)
-        return pia_fail(context, PIA_E_ARGUMENT, "%lld iterations are not a count", (long long)o->max_iterations);
-    if (isnan(o->stop_change) || isnan(o->stop_gradient) || o->trace_every < 0)
-        return pia_fail(context, PIA_E_ARGUMENT, "stop_change, stop_gradient or trace_every is not a number >= 0");
-    if (!(o->fairing >= 0) || isinf(o->fairing))
-        return pia_fail(context, PIA_E_ARGUMENT, "fairing %g is not a finite number >= 0", o->fairing);
-    for (int d = 0; d < 2; d++)
-        if (o->control[d] < 1 && o->control[d] != PIA_AUTO)
-            return pia_fail(context, PIA_E_ARGUMENT, "%lld control points are not a count", (long long)o->control[d]);
-    return PIA_OK;
-}
-
 static int on_progress(void *user)
 {
     pia_fit *fit = user;
@@ -197,7 +167,7 @@ pia_status pia_fit_assemble(pia_fit *fit)
 
 static pia_status open_stages(pia_fit *fit, const pia_data *data)
 {
-    pia_status status = check_options(fit);
+    pia_status status = pia_fit_check_options(fit, data->kind == PIA_CURVE ? 1 : 2);
     for (int d = 0; d < 2 && fit->options.start != NULL; d++) fit->options.closed[d] |= fit->options.start->periodic[d];
     if (status == PIA_OK) status = pia_fit_take_data(fit, data);
     if (status == PIA_OK) status = pia_fit_choose(fit);

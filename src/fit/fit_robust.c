@@ -21,8 +21,6 @@ pia_status pia_fit_choose_loss(pia_fit *fit)
     r->loss = o->robust[0] == 'h' ? PIA_LOSS_HUBER : PIA_LOSS_TUKEY;
     r->convex = r->loss == PIA_LOSS_TUKEY;
     r->tuning = o->robust_scale == PIA_AUTO ? (r->loss == PIA_LOSS_HUBER ? 1.345 : 4.685) : o->robust_scale;
-    if (!(r->tuning > 0) || isinf(r->tuning))
-        return pia_fail(fit->context, PIA_E_ARGUMENT, "robust scale %g is not a finite number > 0", o->robust_scale);
     if (fit->square || pia_fit_is_grouped(fit))
         return pia_fail(fit->context, PIA_E_ARGUMENT,
                         "a robust loss needs least squares, fewer control points than data; method %s is none",

@@ -6,13 +6,12 @@
 #include <math.h>
 #include <string.h>
 
-/* Time and the progress callback, between rounds. */
+/* Time and the callbacks that may cancel, between rounds. */
 int pia_refine_stopped(pia_fit *fit)
 {
     pia_solve *solve = &fit->solve;
     solve->seconds = pia_seconds() - fit->began;
-    if (solve->stop == PIA_STOP_NONE && solve->rules.progress != NULL && solve->rules.progress(solve->rules.user))
-        solve->stop = PIA_STOP_CANCELLED;
+    if (solve->stop == PIA_STOP_NONE && pia_solve_cancelled(solve)) solve->stop = PIA_STOP_CANCELLED;
     if (solve->stop == PIA_STOP_NONE && solve->rules.time_limit > 0 && solve->seconds >= solve->rules.time_limit)
         solve->stop = PIA_STOP_TIME;
     fit->paused = solve->stop == PIA_STOP_NONE && fit->iterate.iteration >= fit->refined_until;

@@ -23,6 +23,12 @@ double pia_seconds(void)
     return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
 }
 
+int pia_solve_cancelled(pia_solve *solve)
+{
+    const pia_rules *rules = &solve->rules;
+    return pia_interrupted(solve->iterate->context) || (rules->progress != NULL && rules->progress(rules->user));
+}
+
 static pia_status take_state(pia_context *context, size_t size, void **state)
 {
     if (size == 0) return PIA_OK;
@@ -204,7 +210,7 @@ static pia_status iterate_once(pia_solve *solve)
         status = note_errors(solve);
     }
     if (status != PIA_OK) return status;
-    if (solve->rules.progress != NULL && solve->rules.progress(solve->rules.user)) solve->stop = PIA_STOP_CANCELLED;
+    if (pia_solve_cancelled(solve)) solve->stop = PIA_STOP_CANCELLED;
     if (solve->stop == PIA_STOP_NONE) solve->stop = pia_stop_before(solve);
     if (solve->stop == PIA_STOP_NONE && iterate->stalled) solve->stop = PIA_STOP_STALLED;
     if (solve->stop != PIA_STOP_NONE) return PIA_OK;

@@ -62,6 +62,9 @@ pia_status pia_solve_restart(pia_solve *solve, const pia_values *method_values, 
 pia_status pia_solve_trace(pia_solve *solve);
 void pia_solve_end(pia_solve *solve);
 
+/* Whether the progress callback or the context asks to stop. */
+int pia_solve_cancelled(pia_solve *solve);
+
 /* Monotonic seconds. */
 double pia_seconds(void);
 
