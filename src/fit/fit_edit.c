@@ -106,6 +106,16 @@ pia_status pia_fit_move_point(pia_fit *fit, pia_index data_row, const double *po
     return refresh(fit, row);
 }
 
+/* Weights of 1 where the fit had none. */
+static pia_status take_weights(pia_fit *fit)
+{
+    if (fit->weights != NULL) return PIA_OK;
+    fit->weights = pia_take(fit->context, fit->rows, sizeof(double));
+    if (fit->weights == NULL) return PIA_E_MEMORY;
+    for (pia_index i = 0; i < fit->rows; i++) fit->weights[i] = 1;
+    return PIA_OK;
+}
+
 pia_status pia_fit_weigh_point(pia_fit *fit, pia_index data_row, double weight)
 {
     pia_index row;
@@ -114,15 +124,11 @@ pia_status pia_fit_weigh_point(pia_fit *fit, pia_index data_row, double weight)
                         fit->solve.method->name);
     if (!(weight >= 0) || isinf(weight)) return pia_fail(fit->context, PIA_E_DATA, "weight %g is not finite and >= 0", weight);
     pia_status status = find_row(fit, data_row, &row);
+    int weighted = fit->weights != NULL;
+    if (status == PIA_OK) status = take_weights(fit);
     if (status != PIA_OK) return status;
-    if (fit->weights != NULL) {
-        fit->weights[row] = weight;
-        return refresh(fit, row);
-    }
-    fit->weights = pia_take(fit->context, fit->rows, sizeof(double));
-    if (fit->weights == NULL) return PIA_E_MEMORY;
-    for (pia_index i = 0; i < fit->rows; i++) fit->weights[i] = i == row ? weight : 1;
-    return pia_fit_reassemble(fit);
+    fit->weights[row] = weight;
+    return weighted ? refresh(fit, row) : pia_fit_reassemble(fit);
 }
 
 /* A row between the sorted ones of a curve; scattered rows go to the end. */
@@ -202,6 +208,7 @@ pia_status pia_fit_add_points(pia_fit *fit, const pia_data *more)
     pia_data_init(&data);
     pia_status status = pia_options_read(fit->context, "pia_data", &data, sizeof data, more);
     if (status == PIA_OK) status = check_more(fit, &data);
+    if (status == PIA_OK && data.weights != NULL) status = take_weights(fit);
     if (status == PIA_OK) status = make_room(fit, data.count[0]);
     if (status != PIA_OK) return status;
     pia_index wide = fit->kind == PIA_SCATTERED ? 2 : 1;

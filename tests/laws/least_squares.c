@@ -424,6 +424,62 @@ static void published_counts_are_met_on_dinis_surface(void **state)
     pia_context_destroy(context);
 }
 
+static pia_data weighted_rows(double rows[][4], pia_index count, double *points, double *parameters, double *weights)
+{
+    pia_data data;
+    pia_data_init(&data);
+    for (pia_index i = 0; i < count; i++) {
+        memcpy(points + 2 * i, rows[i], 2 * sizeof *points);
+        parameters[i] = rows[i][2];
+        weights[i] = rows[i][3];
+    }
+    data.points = points;
+    data.parameters = parameters;
+    data.weights = weights;
+    data.dim = 2;
+    data.count[0] = count;
+    return data;
+}
+
+/* The solution with rows added later is that with the same rows and weights from the beginning. */
+static void rows_added_later_bring_their_weights(void **state)
+{
+    (void)state;
+    enum { ALL = 63 };
+    double all[ALL][4], first[ALL][4], later[ALL][4]; /* x, y, parameter, weight */
+    int firsts = 0, laters = 0;
+    for (int i = 0; i < ALL; i++) {
+        double t = (double)i / (ALL - 1), heavy = i % 20 == 10;
+        double row[4] = {t, heavy ? 3 : sin(6 * t), t, heavy ? 50 : 1};
+        memcpy(all[i], row, sizeof row);
+        memcpy(heavy ? later[laters++] : first[firsts++], row, sizeof row);
+    }
+    double points[3][2 * ALL], parameters[3][ALL], weights[3][ALL], control[2][8 * 2];
+    pia_data data = weighted_rows(first, firsts, points[0], parameters[0], weights[0]);
+    pia_data more = weighted_rows(later, laters, points[1], parameters[1], weights[1]);
+    pia_data whole = weighted_rows(all, ALL, points[2], parameters[2], weights[2]);
+    data.weights = NULL; /* they are 1 */
+    const double knots[] = {0, 0, 0, 0, 0.2, 0.4, 0.6, 0.8, 1, 1, 1, 1};
+    pia_fit_options options;
+    pia_fit_options_init(&options);
+    options.knots[0] = knots;
+    options.knot_count[0] = 12;
+    pia_context *context = NULL;
+    pia_fit *fit;
+    pia_model *model[2];
+    assert_ok(NULL, pia_context_create(NULL, &context));
+    assert_ok(context, pia_fit_open(context, &data, &options, &fit));
+    assert_ok(context, pia_fit_add_points(fit, &more));
+    assert_ok(context, pia_fit_run(fit, NULL));
+    assert_ok(context, pia_fit_model(fit, &model[0]));
+    assert_ok(context, pia_fit_data(context, &whole, &options, &model[1], NULL));
+    for (int k = 0; k < 2; k++) pia_model_control(model[k], control[k], NULL);
+    for (int i = 0; i < 16; i++) assert_near(control[0][i], control[1][i], 1e-11);
+    pia_fit_close(fit);
+    for (int k = 0; k < 2; k++) pia_model_destroy(model[k]);
+    pia_context_destroy(context);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -437,6 +493,7 @@ int main(void)
         cmocka_unit_test(no_method_leaves_the_limit),
         cmocka_unit_test(a_diverging_fit_ends_with_a_finite_model),
         cmocka_unit_test(published_counts_are_met_on_dinis_surface),
+        cmocka_unit_test(rows_added_later_bring_their_weights),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
