@@ -290,6 +290,8 @@ pia_status pia_fit_step(pia_fit *fit, pia_index iterations, pia_report *report);
 pia_status pia_fit_run(pia_fit *fit, pia_report *report);
 /* State now; never iterates. Cost: one pass over the data if an edit made the errors stale. */
 pia_status pia_fit_report(pia_fit *fit, pia_report *report);
+/* Components of a row that are fitted, those of residuals and of points moved or added: the data's, of a function graph one less. */
+int pia_fit_dim(const pia_fit *fit);
 /* A model of the current iterate; the caller destroys it. */
 pia_status pia_fit_model(pia_fit *fit, pia_model **out);
 /* A parameter of the method's record ("omega", "eta", ...), or "tolerance", "max_iterations", "stop_change", "stop_gradient",

@@ -95,8 +95,8 @@ static pia_status check_number(pia_context *context, const pia_option *option, d
 {
     if (option->type == PIA_OPTION_SWITCH || (option->automatic && value == PIA_AUTO)) return PIA_OK;
     if (value >= option->minimum && value <= option->maximum) return PIA_OK;
-    return pia_fail(context, PIA_E_ARGUMENT, "%s is %g; give %s from %g to %g", option->name, value,
-                    option->type == PIA_OPTION_NUMBER ? "a number" : "a count", option->minimum, option->maximum);
+    return pia_fail(context, PIA_E_ARGUMENT, "%s is %g; give %s from %g to %g: %s", option->name, value,
+                    option->type == PIA_OPTION_NUMBER ? "a number" : "a count", option->minimum, option->maximum, option->sentence);
 }
 
 static pia_status check_array(pia_context *context, const pia_fit_options *options, const pia_option *option, int d)

@@ -28,6 +28,11 @@ pia_status pia_fit_run(pia_fit *fit, pia_report *report)
     return pia_fit_step(fit, INT64_MAX, report);
 }
 
+int pia_fit_dim(const pia_fit *fit)
+{
+    return fit->dim;
+}
+
 static pia_index data_row(const pia_fit *fit, pia_index row)
 {
     return row >= 0 && fit->row != NULL ? fit->row[row] : row;
