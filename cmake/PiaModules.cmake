@@ -40,6 +40,12 @@ function(pia_part_file module stem part)
   set_source_files_properties(${PIA_SOURCE}/${module}/${stem}_${left_out}.c PROPERTIES HEADER_FILE_ONLY ON)
 endfunction()
 
+# pia_embed(module file MACRO embedded): the source file takes in another one of its folder, whose path it knows as MACRO.
+function(pia_embed module file macro embedded)
+  set_property(SOURCE ${PIA_SOURCE}/${module}/${file} APPEND PROPERTY OBJECT_DEPENDS ${PIA_SOURCE}/${module}/${embedded})
+  set_property(SOURCE ${PIA_SOURCE}/${module}/${file} APPEND PROPERTY COMPILE_DEFINITIONS ${macro}="${PIA_SOURCE}/${module}/${embedded}")
+endfunction()
+
 # pia_registry(module/function type pattern...): every file that matches exports one record named pia_<file name>, and
 # `const type *function(pia_index)` lists them in the order of the patterns, by name within a pattern.
 function(pia_registry target type)

@@ -6,8 +6,9 @@ set(PIA_PART_LIBRARIES "")
 set(PIA_PART_MODULES "")
 
 pkg_check_modules(JANSSON REQUIRED IMPORTED_TARGET jansson)
-list(APPEND PIA_PART_LIBRARIES PkgConfig::JANSSON)
-list(APPEND PIA_PART_MODULES jansson)
+pkg_check_modules(ZLIB REQUIRED IMPORTED_TARGET zlib)
+list(APPEND PIA_PART_LIBRARIES PkgConfig::JANSSON PkgConfig::ZLIB)
+list(APPEND PIA_PART_MODULES jansson zlib)
 
 # pia_part(NAME pkg-config-module): sets PIA_HAVE_NAME and the imported target PkgConfig::NAME as PIA_WITH_NAME asks.
 macro(pia_part name)

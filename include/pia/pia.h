@@ -515,7 +515,7 @@ pia_status pia_table_write(pia_context *context, const char *path, const char *f
 /* What a picture shows. */
 typedef struct pia_plot_options {
     size_t struct_size;
-    const char *format;         /* svg, png, pdf; NULL: by extension */
+    const char *format;         /* svg, png, pdf, html (a report, see pia_page_write); NULL: by extension */
     double width, height;       /* points of 1/72 inch, pixels for png; 0: chosen from the shape */
     const char *title;          /* NULL: none */
     int control, knots, comb;   /* 1: control polygon or net, knot marks, curvature comb. Default 1, 1, 0 */
@@ -532,6 +532,51 @@ void pia_plot_options_init(pia_plot_options *options);
  * all. Errors: PIA_E_ARGUMENT, FILE, UNAVAILABLE (built without Cairo). */
 pia_status pia_plot(pia_context *context, const char *path, const pia_model *const *models, pia_index model_count, const double *points,
                     pia_index count, const pia_plot_options *options);
+
+/* --------------------------------------------------------------------------------------------- the report ---- */
+
+/* One row of a report's table of settings. */
+typedef struct pia_page_setting {
+    const char *name;    /* as the option is called */
+    const char *value;   /* as given or chosen; NULL: the default */
+    const char *initial; /* the default */
+} pia_page_setting;
+
+/* What a report tells beside models and points. Texts are UTF-8 and may hold anything. */
+typedef struct pia_page_options {
+    size_t struct_size;
+    const char *title;        /* NULL: the source */
+    const char *source;       /* where the points are from; NULL: not told */
+    const char *command;      /* what makes the model again at a command line; NULL: not told */
+    double tolerance;         /* largest deviation that was wanted, units of the points; 0: none */
+    const double *parameters; /* of the points, as in pia_model_deviation; NULL: closest points */
+    const pia_index *rows;    /* [count] what a reader calls each point, its row in a file; NULL: its index */
+    const pia_page_setting *settings;
+    pia_index setting_count;
+    const pia_trace_row *trace; /* history of the first model; NULL: that of its frames */
+    pia_index trace_count;
+    const pia_model *const *frames; /* earlier states of the models, those of a model one after the other in their order */
+    pia_index frame_count;
+    const pia_index *frame_start; /* [model_count + 1] first frame of each model, and frame_count; NULL: all are the first model's */
+    const pia_index *corners;     /* rows of points that are corners */
+    pia_index corner_count;
+    const pia_index *met; /* rows of points that are met exactly */
+    pia_index met_count;
+    const double *constraint_points; /* [constraint_point_count x dim] other points that are met */
+    pia_index constraint_point_count;
+    const pia_index *unsupported; /* control points of the first model that no data holds, row-major */
+    pia_index unsupported_count;
+} pia_page_options;
+
+/* Zeroes and NULL. */
+void pia_page_options_init(pia_page_options *options);
+/* The interactive report: one HTML file that needs nothing else, no network either. It holds the models, the points (some 16,000 of
+ * them where there are more, the farthest among them), what pia_model_report and pia_model_note tell, and a replay of the frames,
+ * whose own reports give iteration and errors. points NULL: none, else [count x dim] with dim of the first model; points with a
+ * component that is NaN are left out. Written whole or not at all. Errors: PIA_E_ARGUMENT, DATA, FILE, MEMORY, SIZE. Cost: the
+ * deviations; the closest point of every point where options->parameters is NULL. */
+pia_status pia_page_write(pia_context *context, const char *path, const pia_model *const *models, pia_index model_count,
+                          const double *points, pia_index count, const pia_page_options *options);
 
 #if defined(__GNUC__)
 #pragma GCC visibility pop

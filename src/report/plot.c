@@ -19,20 +19,26 @@ void pia_plot_options_init(pia_plot_options *options)
         (pia_plot_options){.struct_size = sizeof *options, .control = 1, .knots = 1, .deviation = 1, .azimuth = -60, .elevation = 30};
 }
 
+/* The name of the format asked for, by the extension where none is. */
+static const char *wanted_format(const char *path, const char *name)
+{
+    const char *dot = strrchr(path, '.');
+    return name != NULL ? name : dot != NULL ? dot + 1 : "";
+}
+
 static pia_status find_format(pia_context *context, const char *path, const char *name, pia_picture *out)
 {
     static const struct {
         const char *name;
         pia_picture picture;
     } known[] = {{"svg", PIA_PICTURE_SVG}, {"png", PIA_PICTURE_PNG}, {"pdf", PIA_PICTURE_PDF}};
-    const char *dot = strrchr(path, '.');
-    const char *wanted = name != NULL ? name : dot != NULL ? dot + 1 : "";
+    const char *wanted = wanted_format(path, name);
     for (size_t i = 0; i < sizeof known / sizeof *known; i++) {
         if (strcasecmp(wanted, known[i].name) != 0) continue;
         *out = known[i].picture;
         return PIA_OK;
     }
-    return pia_fail(context, PIA_E_ARGUMENT, "\"%s\" is no picture format for %s; use svg, png or pdf", wanted, path);
+    return pia_fail(context, PIA_E_ARGUMENT, "\"%s\" is no picture format for %s; use svg, png, pdf or html", wanted, path);
 }
 
 static int valid_side(double side)
@@ -166,6 +172,19 @@ static pia_status write_picture(const pia_scene *scene, const char *path, pia_pi
     return status;
 }
 
+/* A picture that can be asked: what the options say of looks, the page's reader chooses. */
+static pia_status write_report(pia_context *context, const char *path, const pia_model *const *models, pia_index model_count,
+                               const double *points, pia_index count, const pia_plot_options *o)
+{
+    pia_page_options page;
+    pia_page_options_init(&page);
+    page.title = o->title;
+    page.parameters = o->parameters;
+    page.trace = o->trace;
+    page.trace_count = o->trace_count;
+    return pia_page_write(context, path, models, model_count, points, count, &page);
+}
+
 pia_status pia_plot(pia_context *context, const char *path, const pia_model *const *models, pia_index model_count, const double *points,
                     pia_index count, const pia_plot_options *options)
 {
@@ -175,6 +194,8 @@ pia_status pia_plot(pia_context *context, const char *path, const pia_model *con
     pia_status status = pia_options_read(context, "pia_plot_options", &o, sizeof o, options);
     if (status != PIA_OK) return status;
     if (path == NULL) return pia_fail(context, PIA_E_ARGUMENT, "no path to write the picture to");
+    if (strcasecmp(wanted_format(path, o.format), "html") == 0)
+        return write_report(context, path, models, model_count, points, count, &o);
     status = find_format(context, path, o.format, &picture);
     if (status == PIA_OK) status = check(context, models, model_count, points, count, &o);
     if (status != PIA_OK) return status;

@@ -101,19 +101,70 @@ static void cross(int directions, const double *first, pia_index first_count, co
     }
 }
 
+/* Drawn positions at the lattice of parameters first x second. */
+static pia_status place_lattice(pia_context *context, const pia_model *model, const double *first, pia_index first_count,
+                                const double *second, pia_index second_count, double *at)
+{
+    pia_model_info info = {.struct_size = sizeof info};
+    pia_model_get_info(model, &info);
+    pia_index count = first_count * second_count;
+    double *parameter = pia_take(context, count, (size_t)info.directions * sizeof *parameter);
+    double *value = pia_take(context, count, (size_t)info.dim * sizeof *value);
+    pia_status status = PIA_E_MEMORY;
+    if (parameter != NULL && value != NULL) {
+        cross(info.directions, first, first_count, second, second_count, parameter);
+        status = pia_model_eval(context, model, parameter, count, 0, value);
+        if (status == PIA_OK) status = place_all(context, &info, parameter, value, count, info.dim, at);
+    }
+    pia_give(context, parameter);
+    pia_give(context, value);
+    return status;
+}
+
 static pia_status sample_shape(pia_context *context, pia_figure *figure)
 {
     const pia_samples *s = figure->samples;
-    pia_index count = s[0].count * s[1].count;
-    double *parameter = pia_take(context, count, (size_t)figure->info.directions * sizeof *parameter);
-    double *value = pia_take(context, count, (size_t)figure->info.dim * sizeof *value);
-    figure->at = pia_take(context, count, 3 * sizeof *figure->at);
+    figure->at = pia_take(context, s[0].count * s[1].count, 3 * sizeof *figure->at);
+    if (figure->at == NULL) return PIA_E_MEMORY;
+    return place_lattice(context, figure->model, s[0].parameter, s[0].count, s[1].parameter, s[1].count, figure->at);
+}
+
+pia_status pia_figure_lattice(pia_context *context, const pia_model *model, const pia_index count[2], double *at)
+{
+    pia_model_info info = {.struct_size = sizeof info};
+    pia_model_get_info(model, &info);
+    double *parameter = pia_take_zero(context, count[0] + count[1], sizeof *parameter);
+    if (parameter == NULL) return pia_take_status(context, count[0] + count[1], sizeof *parameter);
+    double *line[2] = {parameter, parameter + count[0]};
+    for (int d = 0; d < info.directions; d++)
+        for (pia_index i = 0; i < count[d]; i++) {
+            double share = (double)i / (double)(count[d] - 1);
+            line[d][i] = (1 - share) * info.domain[d][0] + share * info.domain[d][1];
+        }
+    pia_status status = place_lattice(context, model, line[0], count[0], line[1], count[1], at);
+    pia_give(context, parameter);
+    return status;
+}
+
+pia_status pia_figure_control(pia_context *context, const pia_model *model, double *at)
+{
+    pia_model_info info = {.struct_size = sizeof info};
+    pia_model_get_info(model, &info);
+    pia_index count = info.control[0] * info.control[1];
+    double *abscissa = pia_take(context, info.control[0] + info.control[1], sizeof *abscissa);
+    double *parameter = pia_take(context, count, (size_t)info.directions * sizeof *parameter);
+    double *value = pia_take(context, count, (size_t)info.dim * sizeof *value);
     pia_status status = PIA_E_MEMORY;
-    if (parameter != NULL && value != NULL && figure->at != NULL) {
-        cross(figure->info.directions, s[0].parameter, s[0].count, s[1].parameter, s[1].count, parameter);
-        status = pia_model_eval(context, figure->model, parameter, count, 0, value);
-        if (status == PIA_OK) status = place_all(context, &figure->info, parameter, value, count, figure->info.dim, figure->at);
+    if (abscissa != NULL && parameter != NULL && value != NULL) {
+        double *greville[2] = {abscissa, abscissa + info.control[0]};
+        for (int d = 0; d < info.directions; d++)
+            for (pia_index i = 0; i < info.control[d]; i++)
+                greville[d][i] = pia_knots_greville(pia_model_knots(model, d), info.degree[d], i);
+        cross(info.directions, greville[0], info.control[0], greville[1], info.control[1], parameter);
+        pia_model_control(model, value, NULL);
+        status = place_all(context, &info, parameter, value, count, info.dim, at);
     }
+    pia_give(context, abscissa);
     pia_give(context, parameter);
     pia_give(context, value);
     return status;
@@ -121,26 +172,8 @@ static pia_status sample_shape(pia_context *context, pia_figure *figure)
 
 static pia_status sample_control(pia_context *context, pia_figure *figure)
 {
-    const pia_model_info *info = &figure->info;
-    pia_index count = info->control[0] * info->control[1];
-    double *abscissa = pia_take(context, info->control[0] + info->control[1], sizeof *abscissa);
-    double *parameter = pia_take(context, count, (size_t)info->directions * sizeof *parameter);
-    double *value = pia_take(context, count, (size_t)info->dim * sizeof *value);
-    figure->control = pia_take(context, count, 3 * sizeof *figure->control);
-    pia_status status = PIA_E_MEMORY;
-    if (abscissa != NULL && parameter != NULL && value != NULL && figure->control != NULL) {
-        double *greville[2] = {abscissa, abscissa + info->control[0]};
-        for (int d = 0; d < info->directions; d++)
-            for (pia_index i = 0; i < info->control[d]; i++)
-                greville[d][i] = pia_knots_greville(pia_model_knots(figure->model, d), info->degree[d], i);
-        cross(info->directions, greville[0], info->control[0], greville[1], info->control[1], parameter);
-        pia_model_control(figure->model, value, NULL);
-        status = place_all(context, info, parameter, value, count, info->dim, figure->control);
-    }
-    pia_give(context, abscissa);
-    pia_give(context, parameter);
-    pia_give(context, value);
-    return status;
+    figure->control = pia_take(context, figure->info.control[0] * figure->info.control[1], 3 * sizeof *figure->control);
+    return figure->control != NULL ? pia_figure_control(context, figure->model, figure->control) : PIA_E_MEMORY;
 }
 
 /* The curvature vector k = (c'' - c' (c'.c'')/(c'.c')) / (c'.c') lives in every dimension; 0 where the curve stands still. */

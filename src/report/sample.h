@@ -44,6 +44,13 @@ void pia_figure_give(pia_context *context, pia_figure *figure);
 /* The drawn position of a value [dim] at a parameter [directions]. */
 void pia_figure_place(const pia_model_info *info, const double *parameter, const double *value, double at[3]);
 
+/* The drawn positions [control x 3] of the control points; those of a model of one component stand at their Greville abscissas.
+ * PIA_E_DATA as above, PIA_E_MEMORY. */
+pia_status pia_figure_control(pia_context *context, const pia_model *model, double *at);
+/* The drawn positions [count[0] x count[1] x 3] of a lattice of equal steps in the parameters over the whole domain, count at least 2
+ * (a curve: count[1] is 1). Errors as above. */
+pia_status pia_figure_lattice(pia_context *context, const pia_model *model, const pia_index count[2], double *at);
+
 /* 1 when the horizontal position of a curve is its parameter but for scale: a function graph. */
 int pia_figure_is_graph(const pia_figure *curve);
 /* 1 when the first component of a curve never turns back. */
