@@ -152,6 +152,24 @@ int arguments_parse(struct session *session, const char *name, const struct argp
     return EXIT_USAGE;
 }
 
+/* A word that a shell takes as one: plain, or in single quotes, each of its own written '\\''. */
+static const char *quoted(struct session *session, const char *word)
+{
+    static const char plain[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789_@%+=:,./-";
+    if (*word && !word[strspn(word, plain)]) return word;
+    const char *text = "'";
+    for (const char *quote; (quote = strchr(word, '\'')); word = quote + 1)
+        text = session_text(session, "%s%.*s'\\''", text, (int)(quote - word), word);
+    return session_text(session, "%s%s'", text, word);
+}
+
+const char *command_line(struct session *session, const char *name, int argc, char *const *argv)
+{
+    const char *line = session_text(session, "pia %s", name);
+    for (int i = 1; i < argc; i++) line = session_text(session, "%s %s", line, quoted(session, argv[i]));
+    return line;
+}
+
 /* ---- Values ---- */
 
 int text_is_count(const char *text, pia_index *out)

@@ -20,6 +20,10 @@ enum { COMMON_GROUP = 90 };
 /* Parses the arguments of the subcommand `name`; argv[0] is its name. Returns EXIT_DONE, EXIT_USAGE or HELP_WAS_PRINTED. */
 int arguments_parse(struct session *session, const char *name, const struct argp *argp, int argc, char **argv, void *input);
 
+/* "pia NAME ..." with the arguments as they are given, quoted where a shell would read them otherwise; kept by the session. To be
+ * taken before the arguments are parsed. */
+const char *command_line(struct session *session, const char *name, int argc, char *const *argv);
+
 /* For parsers: prints the error and returns what makes argp stop. */
 int usage_error(const char *format, ...) __attribute__((format(printf, 1, 2)));
 

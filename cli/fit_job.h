@@ -1,11 +1,13 @@
 /* pia fit, from request to outputs: job_options.c reads the command line into a fit_request, job_setup.c makes the library's data and
- * options of it, job_run.c runs them, job_output.c writes the files, job_summary.c tells the result. */
+ * options of it, job_run.c runs them, job_output.c writes the files, job_report.c the report among them, job_summary.c tells the
+ * result. */
 #ifndef PIA_CLI_FIT_JOB_H
 #define PIA_CLI_FIT_JOB_H
 
 #include "number_file.h"
 #include "point_source.h"
 #include "progress.h"
+#include "recording.h"
 
 enum fit_kind { KIND_BY_FILE, KIND_CURVE, KIND_SURFACE };
 
@@ -28,6 +30,7 @@ struct fit_request {
     struct texts levels; /* numbers as written */
     int levels_are_iterations;
     int dry_run;
+    const char *command; /* the command line, as a shell takes it */
 };
 
 /* What one part of the file is fitted with; arrays are kept by the session, `start` is released by fit_task_close. */
@@ -47,6 +50,8 @@ struct fit_result {
     pia_index level_done;
     double *trace; /* [trace_count x TRACE_COLUMNS] */
     pia_index trace_count;
+    pia_fit_options options;    /* what it was fitted with; `start` is gone */
+    struct recording recording; /* empty without --report */
 };
 
 enum { TRACE_COLUMNS = 7 };
@@ -85,6 +90,15 @@ int fit_dry_run(struct fit_job *job, const struct fit_task *task);
 /* job_output.c: refuses outputs that cannot be written before any work is done; writes them. */
 int fit_outputs_check(struct fit_request *request);
 int fit_outputs_write(struct fit_job *job);
+
+/* job_report.c: writes the report on the models of the last level. */
+pia_status fit_report_write(struct fit_job *job, const pia_model *const *models);
+
+/* job_settings.c: every setting of a fit with its default, kept by the session; returns how many. */
+pia_index fit_settings(const struct fit_job *job, const pia_page_setting **out);
+
+/* The points that the parts fitted were made from, as one stretch; count 0 where a checkpoint was resumed without them. */
+pia_points_info fit_points_shown(const struct fit_job *job, pia_index *count);
 
 /* job_summary.c: prints the text or the JSON, and returns the exit status. */
 int fit_summary_print(const struct fit_job *job);

@@ -381,7 +381,7 @@ static void apply_format(struct fit_request *request)
 
 int fit_request_parse(struct fit_request *request, struct session *session, int argc, char **argv)
 {
-    *request = (struct fit_request){.session = session};
+    *request = (struct fit_request){.session = session, .command = command_line(session, "fit", argc, argv)};
     pia_fit_options_init(&request->options);
     pia_write_options_init(&request->writing);
     point_source_init(&request->source, session);

@@ -43,20 +43,27 @@ int fit_outputs_check(struct fit_request *request)
     return code;
 }
 
-/* The parts fitted are one stretch of the points. */
+pia_points_info fit_points_shown(const struct fit_job *job, pia_index *count)
+{
+    pia_points_info shown = job->points.info;
+    *count = 0;
+    if (!job->points.file) return shown;
+    shown.points += job->result[0].span.first * shown.dim;
+    for (pia_index k = 0; k < job->part_done; k++) *count += job->result[k].span.count;
+    shown.kind = job->kind;
+    if (job->kind != PIA_GRID) shown.count[0] = *count;
+    return shown;
+}
+
 static pia_status draw(struct fit_job *job, const char *path, const char *format, const pia_model *const *models)
 {
     pia_plot_options options;
     pia_plot_options_init(&options);
     options.format = format;
-    pia_points_info shown = job->points.info;
+    pia_index count;
+    pia_points_info shown = fit_points_shown(job, &count);
     struct solid solid = {.count = 0};
-    if (job->points.file) {
-        pia_index count = 0;
-        shown.points += job->result[0].span.first * shown.dim;
-        for (pia_index k = 0; k < job->part_done; k++) count += job->result[k].span.count;
-        shown.kind = job->kind;
-        if (job->kind != PIA_GRID) shown.count[0] = count;
+    if (count) {
         solid =
             points_without_holes(job->session, &shown, job->part_done == 1 ? stored_parameters(job->session, models[0], &shown) : NULL);
         options.parameters = solid.parameters;
@@ -90,7 +97,9 @@ static int write_level(struct fit_job *job, pia_index level)
         code = write_models(job, written, format_to_write(request, path), models);
     }
     int last = level + 1 == job->result[0].level_done;
-    if (!code && last && request->report) code = write_models(job, request->report, "html", models);
+    if (code || !last || !request->report) return code;
+    code = session_check(job->session, fit_report_write(job, models), request->report);
+    if (!code) session_append(job->session, &job->outputs, request->report);
     return code;
 }
 

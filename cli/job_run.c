@@ -1,6 +1,7 @@
 #include <string.h>
 
 #include "fit_job.h"
+#include "stored_parameters.h"
 
 static void result_open(struct fit_job *job, const struct row_span *span, struct fit_result *out)
 {
@@ -9,12 +10,14 @@ static void result_open(struct fit_job *job, const struct row_span *span, struct
     out->report = session_keep(job->session, (size_t)levels, sizeof *out->report);
     out->model = session_keep(job->session, (size_t)levels, sizeof(pia_model *));
     for (pia_index i = 0; i < levels; i++) out->report[i].struct_size = sizeof *out->report;
+    recording_open(&out->recording);
 }
 
 void fit_result_close(struct fit_result *result)
 {
     for (pia_index i = 0; i < result->level_done; i++) pia_model_destroy(result->model[i]);
     result->level_done = 0;
+    recording_close(&result->recording);
 }
 
 static pia_status run_once(struct fit_job *job, const struct fit_task *task, struct fit_result *result)
@@ -26,35 +29,53 @@ static pia_status run_once(struct fit_job *job, const struct fit_task *task, str
 
 /* ---- A fit that is stepped ---- */
 
-/* Runs to a stop in pieces of some seconds, each followed by a checkpoint. */
-static pia_status run_saving(pia_fit *fit, const char *path, pia_report *report)
+/* How far the next piece of a run goes. */
+struct piece {
+    pia_index saving; /* iterations between checkpoints, grown until they take some seconds */
+    double began;
+};
+
+static pia_status save_piece(const struct fit_request *request, pia_fit *fit, struct piece *piece)
 {
     static const double PIECE_SECONDS = 10;
-    pia_index piece = 16;
-    pia_status status;
+    if (!request->checkpoint) return PIA_OK;
+    if (seconds_now() - piece->began < PIECE_SECONDS / 2 && piece->saving < INT32_MAX) piece->saving *= 2;
+    return pia_fit_save(fit, request->checkpoint);
+}
+
+static pia_index piece_length(const struct fit_request *request, const struct piece *piece, const struct recording *recording,
+                              pia_index iteration)
+{
+    pia_index length = request->report ? recording_due(recording, iteration) : INT64_MAX;
+    return request->checkpoint && piece->saving < length ? piece->saving : length;
+}
+
+/* Runs to a stop: at once, or in pieces, each followed by a look for the report and by a checkpoint. */
+static pia_status run_to_stop(struct fit_job *job, pia_fit *fit, pia_report *report, struct recording *recording)
+{
+    const struct fit_request *request = job->request;
+    struct piece piece = {.saving = 16};
+    pia_status status = request->report ? pia_fit_report(fit, report) : PIA_OK;
+    if (status == PIA_OK && request->report) status = recording_look(recording, job->session, fit, report);
     do {
-        double begin = seconds_now();
-        status = pia_fit_step(fit, piece, report);
-        if (seconds_now() - begin < PIECE_SECONDS / 2 && piece < INT32_MAX) piece *= 2;
-        if (status == PIA_OK) status = pia_fit_save(fit, path);
+        piece.began = seconds_now();
+        if (status == PIA_OK) status = pia_fit_step(fit, piece_length(request, &piece, recording, report->iterations), report);
+        if (status == PIA_OK && request->report) status = recording_look(recording, job->session, fit, report);
+        if (status == PIA_OK) status = save_piece(request, fit, &piece);
     } while (status == PIA_OK && report->stop == PIA_STOP_NONE);
     return status;
 }
 
-static pia_status run_to_stop(const struct fit_request *request, pia_fit *fit, pia_report *report)
-{
-    return request->checkpoint ? run_saving(fit, request->checkpoint, report) : pia_fit_run(fit, report);
-}
-
 /* One run through all levels: each sets its goal and goes on from the model of the one before. */
-static pia_status run_levels(const struct fit_request *request, pia_fit *fit, struct fit_result *result)
+static pia_status run_levels(struct fit_job *job, pia_fit *fit, struct fit_result *result)
 {
+    const struct fit_request *request = job->request;
     const char *goal = request->levels_are_iterations ? "max_iterations" : "tolerance";
     pia_index levels = request->levels.count ? request->levels.count : 1;
     pia_status status = PIA_OK;
     for (pia_index i = 0; status == PIA_OK && i < levels && !progress_interrupted(); i++) {
         if (request->levels.count) status = pia_fit_set(fit, goal, request->levels.item[i]);
-        if (status == PIA_OK) status = run_to_stop(request, fit, &result->report[i]);
+        if (status == PIA_OK) status = run_to_stop(job, fit, &result->report[i], &result->recording);
         if (status == PIA_OK) status = pia_fit_model(fit, &result->model[i]);
         if (status == PIA_OK) result->level_done++;
     }
@@ -75,10 +96,19 @@ static void keep_trace(struct fit_job *job, const pia_fit *fit, struct fit_resul
     }
 }
 
+static const double *parameters_used(struct fit_job *job, pia_fit *fit, const struct fit_result *result)
+{
+    pia_points_info points = job->points.info;
+    points.kind = job->kind;
+    if (job->kind == PIA_CURVE) points.count[0] = result->span.count;
+    return fit_parameters(job->session, fit, &points, job->request->options.closed[0]);
+}
+
 static pia_status run_stepped(struct fit_job *job, pia_fit *fit, struct fit_result *result)
 {
-    pia_status status = run_levels(job->request, fit, result);
+    pia_status status = run_levels(job, fit, result);
     if (status == PIA_OK && job->request->trace) keep_trace(job, fit, result);
+    if (status == PIA_OK && job->request->report && job->points.file) result->recording.parameters = parameters_used(job, fit, result);
     return status;
 }
 
@@ -95,7 +125,9 @@ int fit_run_task(struct fit_job *job, const struct fit_task *task, struct fit_re
 {
     const struct fit_request *request = job->request;
     result_open(job, &task->span, result);
-    if (!request->levels.count && !request->trace && !request->checkpoint) return finish(job, run_once(job, task, result), result);
+    result->options = task->options;
+    if (!request->levels.count && !request->trace && !request->checkpoint && !request->report)
+        return finish(job, run_once(job, task, result), result);
     pia_fit *fit = NULL;
     pia_fit_options options = task->options;
     if (request->levels.count && request->levels_are_iterations)

@@ -24,8 +24,8 @@ static void fill_dropped(double *parameters, pia_index count, int closed)
         if (isnan(parameters[i])) parameters[i] = parameters[i - 1];
 }
 
-/* The parameters of a fit, by rows of the points: a closed curve may have been turned. */
-static const double *parameters_by_row(struct session *session, pia_fit *fit, const pia_points_info *points, int closed)
+/* A closed curve may have been turned. */
+const double *fit_parameters(struct session *session, pia_fit *fit, const pia_points_info *points, int closed)
 {
     const double *parameters = NULL;
     const pia_index *row = NULL, *size = points->count;
@@ -54,7 +54,7 @@ static pia_status parameters_of_fit(struct session *session, const pia_points_in
     memcpy(data.count, points->count, sizeof data.count);
     options->max_iterations = 0;
     pia_status status = pia_fit_open(session->context, &data, options, &fit);
-    if (status == PIA_OK) *out = parameters_by_row(session, fit, points, options->closed[0]);
+    if (status == PIA_OK) *out = fit_parameters(session, fit, points, options->closed[0]);
     pia_fit_close(fit);
     return status;
 }
