@@ -101,7 +101,7 @@ static const double *parameters_used(struct fit_job *job, pia_fit *fit, const st
     pia_points_info points = job->points.info;
     points.kind = job->kind;
     if (job->kind == PIA_CURVE) points.count[0] = result->span.count;
-    return fit_parameters(job->session, fit, &points, job->request->options.closed[0]);
+    return fit_parameters(job->session, fit, &points);
 }
 
 static pia_status run_stepped(struct fit_job *job, pia_fit *fit, struct fit_result *result)

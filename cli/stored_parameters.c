@@ -16,28 +16,72 @@ const double *grid_parameters(struct session *session, const double *u, const do
     return pairs;
 }
 
-/* A row that a fit dropped repeats another: the last one of a closed curve the first, else the one before. NAN marks those rows. */
-static void fill_dropped(double *parameters, pia_index count, int closed)
+static int same_row(const pia_points_info *points, pia_index i, pia_index j)
 {
-    if (closed && isnan(parameters[count - 1])) parameters[count - 1] = parameters[0];
-    for (pia_index i = 1; i < count; i++)
-        if (isnan(parameters[i])) parameters[i] = parameters[i - 1];
+    const double *row = points->points;
+    return memcmp(row + i * points->dim, row + j * points->dim, (size_t)points->dim * sizeof *row) == 0;
 }
 
-/* A closed curve may have been turned. */
-const double *fit_parameters(struct session *session, pia_fit *fit, const pia_points_info *points, int closed)
+/* Rows that a fit did not use take the parameter of the row that they repeat: the one before, or the first where a curve is closed.
+ * Returns 0 when a row repeats neither. A row without parameter is NAN. */
+static int fill_repeated(const pia_points_info *points, int width, double *parameter)
+{
+    for (pia_index i = 0; i < points->count[0]; i++) {
+        if (!isnan(parameter[i * width])) continue;
+        pia_index same = i && same_row(points, i, i - 1) ? i - 1 : 0;
+        if (isnan(parameter[same * width]) || !same_row(points, i, same)) return 0;
+        memcpy(parameter + i * width, parameter + same * width, (size_t)width * sizeof *parameter);
+    }
+    return 1;
+}
+
+/* `width` numbers for each of the `count` rows used. A closed curve may have been turned. */
+static const double *parameters_by_row(struct session *session, const pia_points_info *points, const double *parameters,
+                                       pia_index count, int width, const pia_index *row)
+{
+    if (count > points->count[0] || (count < points->count[0] && !row)) return NULL;
+    double *copy = session_keep(session, (size_t)points->count[0], (size_t)width * sizeof *copy);
+    for (pia_index i = 0; i < points->count[0] * width; i++) copy[i] = NAN;
+    for (pia_index i = 0; i < count; i++)
+        memcpy(copy + (row ? row[i] : i) * width, parameters + i * width, (size_t)width * sizeof *copy);
+    return fill_repeated(points, width, copy) ? copy : NULL;
+}
+
+/* Whether the last line of a grid in a direction repeats the first one: a fit closed there has dropped it. */
+static int repeats_line(const pia_points_info *points, int direction)
+{
+    const pia_index *count = points->count, step = direction ? count[1] : 1, last = (count[direction] - 1) * (direction ? 1 : count[1]);
+    for (pia_index k = 0; k < count[1 - direction]; k++)
+        if (!same_row(points, k * step, k * step + last)) return 0;
+    return 1;
+}
+
+static const double *parameters_of_grid(struct session *session, const pia_points_info *points, const double *parameters,
+                                        pia_index count)
+{
+    const pia_index *size = points->count;
+    int shorter[2] = {0, 0};
+    for (int d = 0; d < 2 && count != size[0] + size[1]; d++) shorter[d] = repeats_line(points, d);
+    if (count != size[0] - shorter[0] + size[1] - shorter[1]) return NULL;
+    double *line[2];
+    for (int d = 0; d < 2; d++) {
+        line[d] = session_keep(session, (size_t)size[d], sizeof *line[d]);
+        memcpy(line[d], parameters, (size_t)(size[d] - shorter[d]) * sizeof *parameters);
+        if (shorter[d]) line[d][size[d] - 1] = line[d][0];
+        parameters += size[d] - shorter[d];
+    }
+    return grid_parameters(session, line[0], line[1], size);
+}
+
+const double *fit_parameters(struct session *session, pia_fit *fit, const pia_points_info *points)
 {
     const double *parameters = NULL;
-    const pia_index *row = NULL, *size = points->count;
+    const pia_index *row = NULL;
     pia_index count = 0;
     if (pia_fit_parameters(fit, &parameters, &count, &row) != PIA_OK || !parameters) return NULL;
-    if (points->kind == PIA_GRID)
-        return count == size[0] + size[1] ? grid_parameters(session, parameters, parameters + size[0], size) : NULL;
-    double *copy = session_keep(session, (size_t)size[0], sizeof *copy);
-    for (pia_index i = 0; i < size[0]; i++) copy[i] = row ? NAN : parameters[i];
-    for (pia_index i = 0; row && i < count; i++) copy[row[i]] = parameters[i];
-    fill_dropped(copy, size[0], closed);
-    return copy;
+    if (points->kind == PIA_GRID) return parameters_of_grid(session, points, parameters, count);
+    int width = points->kind == PIA_SCATTERED ? 2 : 1;
+    return parameters_by_row(session, points, parameters, count / width, width, row);
 }
 
 /* Those of a fit with these options that does not iterate. */
@@ -54,7 +98,7 @@ static pia_status parameters_of_fit(struct session *session, const pia_points_in
     memcpy(data.count, points->count, sizeof data.count);
     options->max_iterations = 0;
     pia_status status = pia_fit_open(session->context, &data, options, &fit);
-    if (status == PIA_OK) *out = fit_parameters(session, fit, points, options->closed[0]);
+    if (status == PIA_OK) *out = fit_parameters(session, fit, points);
     pia_fit_close(fit);
     return status;
 }
@@ -125,7 +169,7 @@ static int are_abscissas(const double *parameters, const pia_points_info *points
 
 /* Parameters of all rows of a curve from those of the rows used. */
 static const double *spread(struct session *session, const double *parameters, const pia_points_info *points, const pia_index *dropped,
-                            pia_index dropped_count, int graph, int closed)
+                            pia_index dropped_count, int graph)
 {
     pia_index count = points->count[0];
     double *all = session_keep(session, (size_t)count, sizeof *all);
@@ -135,8 +179,7 @@ static const double *spread(struct session *session, const double *parameters, c
             next++;
         } else
             all[i] = *parameters++;
-    fill_dropped(all, count, closed);
-    return all;
+    return fill_repeated(points, 1, all) ? all : NULL;
 }
 
 /* Those of the points that the model was fitted to, dropped rows left out; NULL for others. */
@@ -167,5 +210,5 @@ const double *stored_parameters(struct session *session, const pia_model *model,
     pia_points_info used = used_points(session, points, dropped, dropped_count);
     const double *parameters = parameters_used(session, model, &used);
     if (!parameters) return NULL;
-    return spread(session, parameters, points, dropped, dropped_count, are_abscissas(parameters, &used), info.periodic[0]);
+    return spread(session, parameters, points, dropped, dropped_count, are_abscissas(parameters, &used));
 }

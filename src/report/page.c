@@ -192,6 +192,18 @@ static void put_constraint_points(pia_page *page)
     pia_json_close(&page->json, ']');
 }
 
+/* Loops of a trimmed surface in its parameter plane, each u, v, u, v, ... */
+static void put_trim(pia_json *json, const pia_model *model)
+{
+    pia_json_open(json, "trim", '[');
+    for (pia_index i = 0; i < pia_model_trim_loop_count(model); i++) {
+        pia_index count;
+        const double *loop = pia_model_trim_loop(model, i, &count);
+        pia_json_numbers(json, NULL, loop, 2 * count);
+    }
+    pia_json_close(json, ']');
+}
+
 static pia_status put_figures(pia_page *page)
 {
     pia_status status = PIA_OK;
@@ -202,6 +214,7 @@ static pia_status put_figures(pia_page *page)
         pia_json_count(&page->json, "dim", figure->info.dim);
         pia_json_truth(&page->json, "periodic", figure->info.periodic[0] || figure->info.periodic[1]);
         if (figure->info.directions == 1) pia_json_truth(&page->json, "graph", pia_figure_is_graph(figure));
+        put_trim(&page->json, figure->model);
         status = pia_page_model(page, f);
         pia_json_close(&page->json, '}');
     }
@@ -244,7 +257,8 @@ static pia_status put_head(pia_page *page, const pia_index *kept)
 static pia_status put_page(pia_page *page, pia_output *output, const pia_index *kept)
 {
     const pia_page_options *o = page->options;
-    const char *title = o->title != NULL ? o->title : o->source != NULL ? o->source : "Report";
+    const char *slash = o->source != NULL ? strrchr(o->source, '/') : NULL;
+    const char *title = o->title != NULL ? o->title : slash != NULL ? slash + 1 : o->source != NULL ? o->source : "Report";
     pia_slice part[3];
     pia_page_template(part);
     page->json.output = output;

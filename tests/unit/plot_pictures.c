@@ -405,8 +405,8 @@ static void wrong_arguments_are_named_and_leave_no_file(void **state)
     const double good[] = {0, 0, 1, 1}, bad[] = {0, 0, 1, NAN}, far[] = {0, 0, 1e200, 1};
     pia_plot_options options;
     pia_plot_options_init(&options);
-    assert_no_picture(*state, "a.jpg", model, NULL, 0, &options, PIA_E_ARGUMENT, "svg, png or pdf");
-    assert_no_picture(*state, "a", model, NULL, 0, &options, PIA_E_ARGUMENT, "svg, png or pdf");
+    assert_no_picture(*state, "a.jpg", model, NULL, 0, &options, PIA_E_ARGUMENT, "svg, png, pdf or html");
+    assert_no_picture(*state, "a", model, NULL, 0, &options, PIA_E_ARGUMENT, "svg, png, pdf or html");
     assert_no_picture(*state, "a.svg", NULL, NULL, 0, &options, PIA_E_ARGUMENT, "model 0");
     assert_no_picture(*state, "a.svg", model, NULL, 3, &options, PIA_E_ARGUMENT, "3 points");
     assert_no_picture(*state, "a.svg", model, good, -1, &options, PIA_E_ARGUMENT, "-1 points");

@@ -2,7 +2,7 @@
 import {foldedTable, make} from './dom.js';
 import {count, number, tickLabels, ticks} from './format.js';
 
-const WIDTH = 560, HEIGHT = 300, BOX = {left: 62, right: 14, top: 16, bottom: 44};
+const WIDTH = innerWidth < 700 ? 370 : 560, HEIGHT = innerWidth < 700 ? 260 : 300, BOX = {left: 62, right: 14, top: 16, bottom: 44};
 const inner = {width: WIDTH - BOX.left - BOX.right, height: HEIGHT - BOX.top - BOX.bottom};
 
 function chart(title, description, ...parts) {
@@ -49,7 +49,7 @@ export function convergence(model, element) {
     const marker = make('svg:g', {class: 'now'}, line(0, BOX.top, 0, HEIGHT - BOX.bottom, 'now'), make('svg:circle', {r: 5, class: 'now'}));
     const counts = growing && rows.length <= 14 ? rows.map(r => text(atX(r[0]), atY(r[2]) - 9, 'note', count(r[1]))) : [];
     const story = `The largest error goes from ${number(rows[0][2])} to ${number(rows[rows.length - 1][2])} in ${name.toLowerCase()}s ${first} to ${last}.`;
-    const goal = model.tolerance ? [line(BOX.left, atY(model.tolerance), WIDTH - BOX.right, atY(model.tolerance), 'goal'), text(WIDTH - BOX.right - 4, atY(model.tolerance) - 6, 'goal', `tolerance ${number(model.tolerance)}`, 'end')] : [];
+    const goal = model.tolerance ? [line(BOX.left, atY(model.tolerance), WIDTH - BOX.right, atY(model.tolerance), 'goal'), text(BOX.left + 6, atY(model.tolerance) - 6, 'goal', `tolerance ${number(model.tolerance)}`, 'start')] : [];
     element.append(make('h2', {}, 'Convergence'), make('p', {class: 'key'}, make('span', {class: 'swatch max'}), 'largest error', make('span', {class: 'swatch rms'}), 'RMS error',
         counts.length ? make('span', {class: 'aside'}, 'numbers: control points') : ''),
         chart('Convergence', story, ...axes(xs, xs.map(count), atX, ys, ys.map(y => number(y, 1)), atY, name), ...goal,

@@ -4,6 +4,7 @@ import {make} from './dom.js';
 import {number} from './format.js';
 import {barFactor, heightFactor} from './scale.js';
 import {cornersOf} from './plane_view.js';
+import {controlCount} from './words.js';
 
 const MODE_NAMES = {shaded: 'Shaded', deviation: 'Deviation', zebra: 'Zebra', isophotes: 'Isophotes', gaussian: 'Gaussian curvature', mean: 'Mean curvature'};
 
@@ -23,7 +24,7 @@ export function layersOf(model) {
 
 export function defaultsOf(model) {
     const {data, surface} = model, show = layersOf(model).map(([name]) => name)
-        .filter(name => !['comb', 'bars'].includes(name) && !(surface && ['control', 'knots'].includes(name)) && !(surface && name === 'points' && data.shown > 2500));
+        .filter(name => !['comb', 'bars'].includes(name) && !(controlCount(model) > 150 && ['control', 'knots'].includes(name)) && !(surface && ['control', 'knots'].includes(name)) && !(surface && name === 'points' && data.shown > 2500));
     return {theme: 'auto', mode: surface && data && data.largest > 0 ? 'deviation' : 'shaded', show, comb: 1, bars: 1, height: 1, frame: null, row: null, view: ''};
 }
 
@@ -64,7 +65,9 @@ export function controls(model, state, element, view) {
     if (!model.surface) add('comb', 'Comb length', state, 'comb', 1.3, v => `\u00d7\u2009${number(v, 2)}`);
     if (model.data && !model.surface) add('bars', 'Bars exaggerated', state, 'bars', 2, v => `\u00d7\u2009${number(v * barFactor(model), 2)}`);
     if (model.space && model.surface) add(null, 'Heights drawn', state, 'height', 1, v => `\u00d7\u2009${number(v * heightFactor(model), 2)}`);
-    if (scales.length) parts.push(make('fieldset', {class: 'scales'}, make('legend', {}, 'Scale'), ...scales));
+    const group = make('fieldset', {class: 'scales'}, make('legend', {}, 'Scale'), ...scales);
+    updates.push(() => { group.hidden = scales.every(scale => scale.hidden); });
+    if (scales.length) parts.push(group);
     const button = (text, label, act) => make('button', {type: 'button', 'aria-label': label, onclick: act}, text);
     parts.push(make('div', {class: 'camera'}, button('\u2212', 'Zoom out', () => view.act('out')), button('+', 'Zoom in', () => view.act('in')), button('Show all', 'Show all', () => view.act('all')),
         ...(model.data ? [button('Farthest point', 'Go to the farthest point', () => view.act('worst'))] : [])));

@@ -38,7 +38,7 @@ class Replay {
 function figureOf(bytes, spec) {
     const {spline} = splineOf(bytes, spec);
     const figure = {spline, surface: spline.directions === 2, graph: Boolean(spec.graph), dim: spec.dim, periodic: spec.periodic,
-        exact: spec.exact, ownControl: spec.own_control, frames: []};
+        exact: spec.exact, trim: (spec.trim ?? []).map(flat => Array.from({length: flat.length / 2}, (_, i) => [flat[2 * i], flat[2 * i + 1]])), ownControl: spec.own_control, frames: []};
     let last;
     for (const frame of spec.frames ?? []) {
         const {spline: shape, packed} = splineOf(bytes, frame, last);

@@ -5,6 +5,7 @@ import {tickLabels, ticks} from './format.js';
 import {frameOf} from './model.js';
 import {palette} from './palette.js';
 import {barFactor} from './scale.js';
+import {Spline} from './spline.js';
 
 const MARGIN = {left: 58, right: 22, top: 22, bottom: 36}, MOST_ZOOM = 1e7;
 
@@ -29,6 +30,7 @@ export class PlaneView {
         this.context.setTransform(ratio, 0, 0, ratio, 0, 0);
         const inner = [width - MARGIN.left - MARGIN.right, height - MARGIN.top - MARGIN.bottom];
         const size = [0, 1].map(c => (this.model.high[c] - this.model.low[c]) * 1.06 || this.model.diagonal);
+        this.combs.clear();
         const own = inner.map((room, c) => Math.max(room, 40) / size[c]);
         this.fitted = this.model.graph ? own : [Math.min(...own), Math.min(...own)];
     }
@@ -201,7 +203,7 @@ export class PlaneView {
         const {context, colours} = this;
         for (const [spline, exact] of this.splines()) {
             if (!exact) continue;
-            const at = i => [spline.points[2 * i], spline.points[2 * i + 1]], count = spline.control[0];
+            const at = i => [spline.points[2 * i], spline.points[2 * i + 1]], count = spline.control[0], r = count / this.zoom > 250 ? 1.75 : 3.25;
             context.strokeStyle = colours.control;
             context.lineWidth = 1;
             context.setLineDash([5, 4]);
@@ -212,7 +214,7 @@ export class PlaneView {
             if (count > 4000) continue;
             context.fillStyle = colours.stage;
             for (let i = 0; i < count; i++) {
-                const [x, y] = this.spot(...at(i)), r = count > 400 ? 2 : 3.25;
+                const [x, y] = this.spot(...at(i));
                 context.beginPath();
                 context.rect(x - r, y - r, 2 * r, 2 * r);
                 context.fill();
@@ -232,9 +234,9 @@ export class PlaneView {
             for (let i = p; i <= spline.control[0]; i++) {
                 if (i > p && knots[i] === knots[i - 1]) continue;
                 const [at, along] = spline.curve(knots[i], 1), [x, y] = this.spot(at[0], at[1]);
-                const tx = along[0] * this.scale[0], ty = -along[1] * this.scale[1], size = Math.hypot(tx, ty) || 1;
-                context.moveTo(x - 6 * ty / size, y + 6 * tx / size);
-                context.lineTo(x + 6 * ty / size, y - 6 * tx / size);
+                const tx = along[0] * this.scale[0], ty = -along[1] * this.scale[1], size = (Math.hypot(tx, ty) || 1) / (spline.control[0] / this.zoom > 250 ? 3 : 6);
+                context.moveTo(x - ty / size, y + tx / size);
+                context.lineTo(x + ty / size, y - tx / size);
             }
         }
         context.stroke();
@@ -242,22 +244,29 @@ export class PlaneView {
 
     comb() {
         const k = Math.round(this.frame);
-        if (!this.combs.has(k)) this.combs.set(k, combOf(this.splines().map(([spline]) => spline), this.model.diagonal));
+        if (!this.combs.has(k)) this.combs.set(k, combOf(this.splines().map(([spline]) => this.drawn(spline)), Math.hypot(...[0, 1].map(c => (this.model.high[c] - this.model.low[c]) * this.fitted[c]))));
         return this.combs.get(k);
     }
 
+    /** A curve in pixels of the fitted view, where a comb stands upright though the axes of a function graph have scales of their own. */
+    drawn(spline) {
+        const [sx, sy] = this.fitted;
+        return new Spline({...spline, points: spline.points.map((x, k) => x * (k % 2 ? sy : sx))});
+    }
+
     drawComb() {
-        const {context, colours} = this, comb = this.comb(), factor = this.state.values.comb;
+        const {context, colours} = this, comb = this.comb(), factor = this.state.values.comb, [fx, fy] = this.fitted;
+        const spot = ([x, y]) => this.spot(x / fx, y / fy);
         context.strokeStyle = colours.comb;
         for (const line of comb.lines) {
             const tips = line.map(tooth => tipOf(tooth, comb, factor));
             context.lineWidth = 0.75;
             context.beginPath();
-            line.forEach((tooth, i) => { context.moveTo(...this.spot(...tooth.root)); context.lineTo(...this.spot(...tips[i])); });
+            line.forEach((tooth, i) => { context.moveTo(...spot(tooth.root)); context.lineTo(...spot(tips[i])); });
             context.stroke();
             context.lineWidth = 1.5;
             context.beginPath();
-            this.trace(tips.length, i => tips[i]);
+            this.trace(tips.length, i => [tips[i][0] / fx, tips[i][1] / fy]);
             context.stroke();
         }
     }
@@ -278,7 +287,7 @@ export class PlaneView {
 
     drawPoints() {
         const {context, colours, model} = this, {data} = model, deviation = model.deviations(Math.max(0, Math.round(this.frame)));
-        const small = data.shown > 1500, r = small ? 1.75 : data.shown > 400 ? 2.5 : 3.25, scale = data.largest || 1;
+        const crowd = data.shown / Math.max(1, this.zoom), small = crowd > 1500, r = small ? 1.75 : crowd > 300 ? 2.25 : 3.25, scale = data.largest || 1;
         context.lineWidth = 0.75;
         context.strokeStyle = colours.ink;
         for (let i = 0; i < data.shown; i++) {

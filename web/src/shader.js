@@ -1,5 +1,5 @@
 // One material for all views of a surface: shading, zebra stripes, isophotes, and values through a colour map. Two states are blended.
-import {DataTexture, DoubleSide, LinearFilter, ShaderMaterial, Vector3} from 'three';
+import {CanvasTexture, DataTexture, DoubleSide, LinearFilter, ShaderMaterial, Vector3} from 'three';
 import {SIZE, texels} from './colours.js';
 
 export const MODES = {shaded: 0, zebra: 1, isophotes: 2, deviation: 3, gaussian: 3, mean: 3};
@@ -9,10 +9,13 @@ export const NO_VALUE = 9;
 const vertexShader = `
 attribute vec3 laterPosition, laterNormal;
 attribute float value, laterValue;
+attribute vec2 place;
 uniform float blend;
 varying vec3 vNormal, vEye;
+varying vec2 vPlace;
 varying float vValue;
 void main() {
+    vPlace = place;
     vec4 eye = modelViewMatrix * vec4(mix(position, laterPosition, blend), 1.0);
     vNormal = normalMatrix * mix(normal, laterNormal, blend);
     vEye = eye.xyz;
@@ -24,10 +27,11 @@ void main() {
 // lines of equal brightness. Both break where the normal does: two derivatives less than the eye sees in shading.
 const fragmentShader = `
 uniform int mode;
-uniform sampler2D map;
+uniform sampler2D map, mask;
 uniform vec3 base, light;
 uniform float stripes, steps;
 varying vec3 vNormal, vEye;
+varying vec2 vPlace;
 varying float vValue;
 float smoothBands(float x) {
     float width = fwidth(x);
@@ -35,6 +39,7 @@ float smoothBands(float x) {
     return smoothstep(-width, width, triangle) ;
 }
 void main() {
+    if (texture2D(mask, vPlace).r < 0.5) discard;
     vec3 n = normalize(vNormal), toEye = normalize(-vEye);
     if (dot(n, toEye) < 0.0) n = -n;
     float diffuse = max(dot(n, light), 0.0), fill = max(dot(n, normalize(vec3(-0.7, -0.2, 0.6))), 0.0);
@@ -54,7 +59,7 @@ void main() {
         } else {
             float at = clamp(0.5 + 0.5 * vValue, 0.0, 1.0);
             float x = at * steps, width = fwidth(x);
-            float line = width > 0.45 ? 0.0 : 1.0 - smoothstep(0.0, 1.3 * width, abs(fract(x + 0.5) - 0.5));
+            float line = width > 0.3 || abs(at - 0.5) < 0.8 / steps ? 0.0 : 1.0 - smoothstep(0.0, 1.3 * width, abs(fract(x + 0.5) - 0.5));
             colour = texture2D(map, vec2(0.5 / ${SIZE}.0 + at * ${SIZE - 1}.0 / ${SIZE}.0, 0.5)).rgb;
             colour = colour * (0.72 + 0.30 * lit) * (1.0 - 0.28 * line);
         }
@@ -69,10 +74,25 @@ export function mapTexture(name) {
     return texture;
 }
 
-export function surfaceMaterial(map) {
+const MASK_SIZE = 1024;
+
+/** What a trimmed surface keeps, over the unit square: loops are closed polylines there. Without loops, all of it. */
+export function maskTexture(loops) {
+    const canvas = document.createElement('canvas'), size = loops.length ? MASK_SIZE : 1, context = canvas.getContext('2d');
+    canvas.width = canvas.height = size;
+    context.fillRect(0, 0, size, size);
+    context.fillStyle = '#fff';
+    context.beginPath();
+    for (const loop of loops) loop.forEach(([u, v], i) => i ? context.lineTo(u * size, (1 - v) * size) : context.moveTo(u * size, (1 - v) * size));
+    if (!loops.length) context.rect(0, 0, size, size);
+    context.fill('evenodd');
+    return new CanvasTexture(canvas);
+}
+
+export function surfaceMaterial(map, mask) {
     return new ShaderMaterial({
         vertexShader, fragmentShader, side: DoubleSide, polygonOffset: true, polygonOffsetFactor: 1, polygonOffsetUnits: 1,
-        uniforms: {blend: {value: 0}, mode: {value: 0}, map: {value: map}, base: {value: new Vector3(0.62, 0.68, 0.76)},
+        uniforms: {blend: {value: 0}, mode: {value: 0}, map: {value: map}, mask: {value: mask}, base: {value: new Vector3(0.62, 0.68, 0.76)},
             light: {value: new Vector3(0.35, 0.62, 0.70).normalize()}, stripes: {value: 14}, steps: {value: 20}}});
 }
 

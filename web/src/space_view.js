@@ -8,7 +8,7 @@ import {combOf, tipOf} from './comb.js';
 import {bilinear, frameOf, normalsOf} from './model.js';
 import {palette} from './palette.js';
 import {barFactor, heightFactor} from './scale.js';
-import {MODES, NO_VALUE, mapTexture, pointMaterial, surfaceMaterial} from './shader.js';
+import {MODES, NO_VALUE, mapTexture, maskTexture, pointMaterial, surfaceMaterial} from './shader.js';
 import {samplesOf, surfaceShape} from './spline.js';
 import {tickLabels, ticks} from './format.js';
 import {cornersOf} from './plane_view.js';
@@ -66,16 +66,20 @@ export class SpaceView {
     // ---- Surfaces ----
 
     buildSurface(figure) {
-        const material = surfaceMaterial(this.map), entry = {figure, material, fine: null, coarse: null, frame: -1};
+        const unit = ([u, v]) => [u, v].map((t, d) => (t - figure.spline.domain[d][0]) / (figure.spline.domain[d][1] - figure.spline.domain[d][0]));
+        const material = surfaceMaterial(this.map, maskTexture(figure.trim.map(loop => loop.map(unit)))), entry = {figure, material, fine: null, coarse: null, frame: -1};
         const us = samplesOf(figure.spline.knots[0], figure.spline.degree[0], figure.spline.control[0], FINE, MOST_FINE);
         const vs = samplesOf(figure.spline.knots[1], figure.spline.degree[1], figure.spline.control[1], FINE, MOST_FINE);
-        const rows = figure.spline.lattice(us, vs, 2), shape = surfaceShape(rows);
-        entry.fine = this.meshOf(us, vs, this.relative(rows.s), shape.normal, material);
+        const rows = figure.spline.lattice(us, vs, 1);
+        entry.fine = this.meshOf(us, vs, this.relative(rows.s), surfaceShape(rows).normal, material);
         entry.nodes = [us, vs];
-        entry.values = {mean: shape.mean, gaussian: shape.gauss};
-        entry.rows = rows;
         this.group.add(entry.fine);
         return entry;
+    }
+
+    /** Mean and Gaussian curvature of the vertices, computed when they are first asked for. */
+    curvatures(entry) {
+        return entry.curvatures ??= surfaceShape(entry.figure.spline.lattice(...entry.nodes, 2));
     }
 
     meshOf(us, vs, position, normal, material) {
@@ -90,7 +94,10 @@ export class SpaceView {
         geometry.setIndex(new BufferAttribute(index, 1));
         for (const name of ['position', 'laterPosition']) geometry.setAttribute(name, new BufferAttribute(position, 3));
         for (const name of ['normal', 'laterNormal']) geometry.setAttribute(name, new BufferAttribute(normal, 3));
-        const none = new BufferAttribute(new Float32Array(us.length * vs.length), 1);
+        const none = new BufferAttribute(new Float32Array(us.length * vs.length), 1), place = new Float32Array(2 * us.length * vs.length);
+        const share = (nodes, i) => (nodes[i] - nodes[0]) / (nodes[nodes.length - 1] - nodes[0]);
+        for (let i = 0, k = 0; i < us.length; i++) for (let j = 0; j < vs.length; j++, k += 2) place.set([share(us, i), share(vs, j)], k);
+        geometry.setAttribute('place', new BufferAttribute(place, 2));
         for (const name of ['value', 'laterValue']) geometry.setAttribute(name, none);
         const mesh = new Mesh(geometry, material);
         mesh.frustumCulled = false;
@@ -102,7 +109,7 @@ export class SpaceView {
         if (mode === 'deviation') return this.model.data ? this.model.data.largest || 1 : 1;
         this.ranges ??= {};
         if (!this.ranges[mode]) {
-            const all = this.surfaces.flatMap(s => Array.from(s.values[mode])).filter(Number.isFinite).map(Math.abs).sort((a, b) => a - b);
+            const all = Float32Array.from(this.surfaces.flatMap(s => Array.from(this.curvatures(s)[mode])).filter(Number.isFinite), Math.abs).sort();
             this.ranges[mode] = all[Math.floor((all.length - 1) * 0.98)] || 1;
         }
         return this.ranges[mode];
@@ -129,7 +136,7 @@ export class SpaceView {
     fineValues(entry, mode) {
         if (mode === 'deviation') return entry.deviation ??= this.mapped(entry.figure, entry.nodes);
         const range = this.range(mode);
-        return Float32Array.from(entry.values[mode], v => Number.isFinite(v) ? v / range : NO_VALUE);
+        return Float32Array.from(this.curvatures(entry)[mode], v => Number.isFinite(v) ? v / range : NO_VALUE);
     }
 
     /** A frame on the nodes of the replay: positions, normals by differences, and deviations moved by the way to the end. */
@@ -209,11 +216,11 @@ export class SpaceView {
         return line;
     }
 
-    dots(values, size, colour, deviations = null, map = this.map) {
+    dots(values, size, colour, deviations = null, map = this.map, rimColour = this.colours.ink) {
         const geometry = new BufferGeometry().setAttribute('position', new BufferAttribute(this.relative(values), 3));
         const range = this.range('deviation');
         geometry.setAttribute('value', new BufferAttribute(Float32Array.from({length: values.length / 3}, (_, i) => deviations ? deviations[i] / range : 0), 1));
-        const rgb = new Color(colour), rim = new Color(this.colours.ink), ratio = this.renderer.getPixelRatio();
+        const rgb = new Color(colour), rim = new Color(rimColour), ratio = this.renderer.getPixelRatio();
         const points = new Points(geometry, pointMaterial(map, size * ratio, new Vector3(rgb.r, rgb.g, rgb.b), new Vector3(rim.r, rim.g, rim.b), deviations !== null));
         points.frustumCulled = false;
         return points;
@@ -251,11 +258,18 @@ export class SpaceView {
         return out;
     }
 
-    /** Curves of a surface at its knots, or its boundary alone. */
+    /** Curves of a surface at its knots, or its boundary alone: its edges, or the loops that trim it. */
     knotLines(inside) {
         const out = [];
         for (const {figure} of this.surfaces) {
-            const {spline} = figure;
+            const {spline, trim} = figure;
+            if (trim.length && !inside) {
+                for (const loop of trim) {
+                    const spots = loop.map(([u, v]) => spline.lattice([u], [v], 0).s);
+                    spots.forEach((spot, i) => out.push(...spot, ...spots[(i + 1) % spots.length]));
+                }
+                continue;
+            }
             for (const d of [0, 1]) {
                 const knots = spline.knots[d], [low, high] = spline.domain[d];
                 let at = inside ? [...new Set(knots)].filter(t => t > low && t < high) : [low, high];
@@ -338,7 +352,7 @@ export class SpaceView {
     buildControl(frame) {
         const {colours} = this, points = this.splines(frame).filter(([f]) => f.exact !== false).flatMap(([f]) => Array.from(f.spline.points));
         const parts = [this.segments(this.controlSegments(frame), colours.control, 1)];
-        if (points.length < 3 * 3000) parts.push(this.dots(points, 5, colours.control));
+        if (points.length < 3 * 800) parts.push(this.dots(points, 5, colours.control, null, this.map, colours.control));
         return parts;
     }
 
@@ -363,13 +377,10 @@ export class SpaceView {
 
     drawBox() {
         const {low, high} = this.model, corner = (i, j, k) => [i ? high[0] : low[0], j ? high[1] : low[1], k ? high[2] : low[2]];
-        const key = this.colours.line;
+        const near = this.nearestCorner(corner), key = `${this.colours.line} ${near}`;
         if (this.box?.key !== key) {
             if (this.box) this.group.remove(this.box.object);
-            const out = [];
-            for (const [a, b] of [[0, 0], [0, 1], [1, 0], [1, 1]])
-                out.push(...corner(0, a, b), ...corner(1, a, b), ...corner(a, 0, b), ...corner(a, 1, b), ...corner(a, b, 0), ...corner(a, b, 1));
-            this.box = {key, object: this.segments(out, this.colours.line, 1)};
+            this.box = {key, object: this.segments(this.farEdges(corner, near), this.colours.line, 1)};
             this.group.add(this.box.object);
         }
         this.labels.replaceChildren();
@@ -378,13 +389,30 @@ export class SpaceView {
         this.labelAxis(2, [[0, 0], [0, 1], [1, 0], [1, 1]].map(([i, j]) => [corner(i, j, 0), corner(i, j, 1)]), 0);
     }
 
+    nearestCorner(corner) {
+        const corners = [0, 1, 2, 3, 4, 5, 6, 7].map(k => [k & 1, k >> 1 & 1, k >> 2]);
+        const depths = corners.map(c => this.spot(corner(...c))[2]);
+        return corners[depths.indexOf(Math.min(...depths))];
+    }
+
+    /** The edges of the box but the three that would stand before what is in it. */
+    farEdges(corner, near) {
+        const out = [];
+        for (const axis of [0, 1, 2])
+            for (const [a, b] of [[0, 0], [0, 1], [1, 0], [1, 1]]) {
+                const ends = [0, 1].map(end => axis === 0 ? [end, a, b] : axis === 1 ? [a, end, b] : [a, b, end]);
+                if (!ends.some(end => end.every((x, c) => x === near[c]))) out.push(...ends.flatMap(end => corner(...end)));
+            }
+        return out;
+    }
+
     /** Ticks along the edge that lies lowest on the screen (axis across: `down`), or leftmost. */
     labelAxis(axis, edges, down) {
         const spots = edges.map(edge => edge.map(at => this.spot(at)));
         const score = ([a, b]) => down ? a[1] + b[1] : -(a[0] + b[0]);
         const best = spots.reduce((k, s, i) => score(s) > score(spots[k]) ? i : k, 0), [from, to] = edges[best], [a, b] = spots[best];
         if (Math.hypot(a[0] - b[0], a[1] - b[1]) < 45 || from[axis] === to[axis]) return;
-        const values = ticks(from[axis], to[axis], Math.hypot(a[0] - b[0], a[1] - b[1]) / 85), names = tickLabels(values);
+        const values = ticks(from[axis], to[axis], Math.hypot(a[0] - b[0], a[1] - b[1]) / 62), names = tickLabels(values);
         const heart = this.spot([0, 1, 2].map(c => this.centre(c))), mid = [(a[0] + b[0]) / 2 - heart[0], (a[1] + b[1]) / 2 - heart[1]];
         const away = Math.hypot(...mid) || 1, put = (text, at, distance, className) => {
             const label = document.createElement('span'), [x, y] = this.spot(at);
@@ -431,9 +459,22 @@ export class SpaceView {
         this.look.distance = Math.max(0.02, Math.min(5, this.look.distance / factor));
     }
 
+    /** Distance at which the box fills the picture from the first direction, with room for the labels. */
+    fittedRange() {
+        const a = HOME.azimuth * Math.PI / 180, e = HOME.elevation * Math.PI / 180, {low, high} = this.model;
+        const toward = [Math.cos(e) * Math.cos(a), Math.cos(e) * Math.sin(a), Math.sin(e)], right = [-Math.sin(a), Math.cos(a), 0];
+        const up = [-Math.sin(e) * Math.cos(a), -Math.sin(e) * Math.sin(a), Math.cos(e)], half = [0, 1, 2].map(c => (high[c] - low[c]) / 2 * this.unit * this.stretch[c]);
+        const tall = Math.tan(FIELD * Math.PI / 360), wide = tall * this.width / this.height, room = [1 - 2 * 46 / this.width, 1 - 2 * 44 / this.height];
+        let range = 0;
+        for (let k = 0; k < 8; k++) {
+            const at = [0, 1, 2].map(c => (k >> c & 1 ? 1 : -1) * half[c]), along = axis => axis.reduce((sum, x, c) => sum + x * at[c], 0);
+            range = Math.max(range, along(toward) + Math.abs(along(right)) / (wide * Math.max(0.4, room[0])), along(toward) + Math.abs(along(up)) / (tall * Math.max(0.4, room[1])));
+        }
+        return range;
+    }
+
     range3() {
-        const wide = Math.max(1, 0.92 / Math.min(1.6, this.width / this.height));
-        return 1.06 * this.look.distance * wide / Math.sin(FIELD * Math.PI / 360);
+        return this.look.distance * this.fittedRange();
     }
 
     aim() {

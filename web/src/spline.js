@@ -189,7 +189,7 @@ function projectLattice(rows, dim) {
 /** Unit normals [count x 3], mean and Gaussian curvature [count] of a lattice of derivatives up to order 2 (order 1: normals only). */
 export function surfaceShape(d) {
     const count = d.s.length / 3, normal = new Float32Array(3 * count);
-    const mean = d.uu ? new Float32Array(count) : null, gauss = d.uu ? new Float32Array(count) : null;
+    const mean = d.uu ? new Float32Array(count) : null, gaussian = d.uu ? new Float32Array(count) : null;
     for (let k = 0; k < count; k++) {
         const i = 3 * k, ux = d.u[i], uy = d.u[i + 1], uz = d.u[i + 2], vx = d.v[i], vy = d.v[i + 1], vz = d.v[i + 2];
         let nx = uy * vz - uz * vy, ny = uz * vx - ux * vz, nz = ux * vy - uy * vx;
@@ -202,7 +202,7 @@ export function surfaceShape(d) {
         const along = a => nx * a[i] + ny * a[i + 1] + nz * a[i + 2];
         const L = along(d.uu), M = along(d.uv), N = along(d.vv), area = E * G - F * F;
         mean[k] = area > 0 ? (E * N - 2 * F * M + G * L) / (2 * area) : NaN;
-        gauss[k] = area > 0 ? (L * N - M * M) / area : NaN;
+        gaussian[k] = area > 0 ? (L * N - M * M) / area : NaN;
     }
-    return {normal, mean, gauss};
+    return {normal, mean, gaussian};
 }

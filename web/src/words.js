@@ -42,7 +42,7 @@ function errorSentence(model) {
     const {data} = model;
     if (!data) return '';
     const how = data.parametric ? 'at the parameters of the fit' : 'from the closest points of the model';
-    return `The farthest point, ${rowName(model, data.farthest)}, is ${number(data.largest)} away, measured ${how}; half of all points are within ${number(data.percentiles[0])}, ` +
+    return `The farthest point, ${rowName(model, data.farthest)}, is ${number(data.largest, 4)} away, measured ${how}; half of all points are within ${number(data.percentiles[0])}, ` +
         `99 of 100 within ${number(data.percentiles[2])}.`;
 }
 
@@ -90,9 +90,10 @@ export function choices(model) {
 export function keyFigures(model) {
     const {data, fits} = model, fit = fits.length === 1 ? fits[0] : null, controls = fit ? fit.control_count : controlCount(model);
     const out = [];
+    if (model.tolerance) out.push(['Tolerance', number(model.tolerance), fit ? (fit.measure_distance ? 'true distance' : 'at the parameters') : '']);
     if (data) out.push(['Points', count(data.all)]);
     out.push(['Control points', count(controls), data ? `${number(data.all / controls, 2)} points each` : '']);
-    if (data) out.push(['Largest error', number(data.largest), rowName(model, data.farthest)], ['RMS error', number(data.rms), model.tolerance ? `${number(100 * data.rms / model.tolerance, 2)}\u00a0% of the tolerance` : '']);
+    if (data) out.push(['Largest error', number(data.largest, 4), rowName(model, data.farthest)], ['RMS error', number(data.rms), model.tolerance ? `${number(100 * data.rms / model.tolerance, 2)}\u00a0% of tolerance` : '']);
     if (fit) out.push([fit.round_count > 0 ? 'Rounds' : 'Iterations', count(fit.round_count > 0 ? fit.round_count : fit.iterations), seconds(fit.seconds)]);
     if (fit && fit.constraint_error !== null) out.push(['Constraints', number(fit.constraint_error), 'largest violation']);
     return out;
