@@ -120,7 +120,7 @@ pia_status pia_model_image(pia_context *context, const pia_model *surface, const
     segment s = {surface, from, to};
     int degree = surface->degree[0] + surface->degree[1];
     double *breaks = NULL;
-    pia_index pieces, control, most = surface->control[0] + surface->control[1];
+    pia_index pieces = 0, control, most = surface->control[0] + surface->control[1];
     if (degree > PIA_MAX_DEGREE)
         return pia_fail(context, PIA_E_ARGUMENT, "the edges of a trimmed surface of degrees %d and %d have degree %d; %d is the most",
                         surface->degree[0], surface->degree[1], degree, PIA_MAX_DEGREE);
