@@ -145,9 +145,11 @@ static pia_status read_model(reader *r, pia_model **out)
     if (status == PIA_OK && !pia_multiply(control[0], control[1], &product))
         status = pia_fail(r->context, PIA_E_SIZE, "%s: too many control points", r->input->path);
     if (status == PIA_OK) status = read_control(r, control, (int)dim, (int)rational, &points, &weights);
-    if (status == PIA_OK)
-        status =
-            pia_model_create(r->context, directions, degree, (const double *const *)knots, control, (int)dim, points, weights, out);
+    if (status == PIA_OK) {
+        const double *const *all = (const double *const *)knots;
+        status = pia_model_create(r->context, directions, degree, all, control, (int)dim, points, weights, out);
+        status = pia_input_judge(r->context, r->input, r->at, "", status);
+    }
     pia_give(r->context, knots[0]);
     pia_give(r->context, knots[1]);
     pia_give(r->context, points);

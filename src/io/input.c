@@ -111,6 +111,14 @@ pia_status pia_input_fail(pia_context *context, const pia_input *input, const ch
     return pia_fail(context, PIA_E_FORMAT, "%s:%lld: %s", input->path, (long long)pia_input_line(input, at), text);
 }
 
+pia_status pia_input_judge(pia_context *context, const pia_input *input, const char *at, const char *where, pia_status status)
+{
+    char why[300];
+    if (status == PIA_OK || status == PIA_E_MEMORY || status == PIA_E_FORMAT) return status;
+    snprintf(why, sizeof why, "%s", pia_message(context));
+    return pia_input_fail(context, input, at, "%s%s", where, why);
+}
+
 void pia_input_quote(const char *begin, const char *end, char quote[32])
 {
     enum { MOST = 24 };

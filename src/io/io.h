@@ -24,6 +24,9 @@ pia_index pia_input_line(const pia_input *input, const char *at);
 /* PIA_E_FORMAT with "PATH:LINE: ...", or "PATH: ..." when at is NULL. */
 pia_status pia_input_fail(pia_context *context, const pia_input *input, const char *at, const char *format, ...)
     __attribute__((format(printf, 4, 5)));
+/* The outcome of a call about what a file holds, told as one about the file: failures but of memory become PIA_E_FORMAT
+ * "PATH:LINE: where" and what the context's message said. */
+pia_status pia_input_judge(pia_context *context, const pia_input *input, const char *at, const char *where, pia_status status);
 /* Copies at most 24 characters for a message, "..." for what is left out and '?' for what cannot be printed. */
 void pia_input_quote(const char *begin, const char *end, char quote[32]);
 

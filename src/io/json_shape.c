@@ -163,12 +163,9 @@ pia_status pia_json_read_shape(const pia_json_place *place, const json_t *data, 
     shape s = {.directions = directions};
     pia_status status = collect(place, data, &s);
     if (status == PIA_OK) {
-        status = make_model(place, data, &s, out);
-        if (status != PIA_OK && status != PIA_E_MEMORY && status != PIA_E_FORMAT) {
-            char why[300];
-            snprintf(why, sizeof why, "%s", pia_message(place->context));
-            status = pia_input_fail(place->context, place->input, NULL, "shape.data[%lld]: %s", (long long)place->model, why);
-        }
+        char where[40];
+        snprintf(where, sizeof where, "shape.data[%lld]: ", (long long)place->model);
+        status = pia_input_judge(place->context, place->input, NULL, where, make_model(place, data, &s, out));
     }
     clear_shape(place->context, &s);
     return status;

@@ -1,8 +1,6 @@
 /* TinySpline's own layout, one polynomial curve: {"degree", "dimension", "control_points": [x, y, x, y, ...], "knots": [...]}. */
 #include "json.h"
 
-#include <stdio.h>
-
 int pia_json_is_tinyspline(const json_t *root)
 {
     return json_object_get(root, "shape") == NULL && json_is_array(json_object_get(root, "control_points")) &&
@@ -18,10 +16,7 @@ static pia_status make_curve(const pia_json_place *place, pia_index degree, pia_
     if (values % dim != 0) return pia_json_fail(place, "control_points", "are not whole points of this dimension");
     if (knot_count != control + degree + 1) return pia_json_fail(place, "knots", "must be as many as control points + degree + 1");
     pia_status status = pia_model_create(place->context, 1, degrees, all, &control, (int)dim, points, NULL, out);
-    if (status == PIA_OK || status == PIA_E_MEMORY) return status;
-    char why[300];
-    snprintf(why, sizeof why, "%s", pia_message(place->context));
-    return pia_input_fail(place->context, place->input, NULL, "%s", why);
+    return pia_input_judge(place->context, place->input, NULL, "", status);
 }
 
 pia_status pia_json_read_tinyspline(const pia_json_place *place, const json_t *root, pia_model **out)

@@ -138,15 +138,6 @@ static pia_status read_error(reader *r)
     return pia_input_fail(r->context, r->input, NULL, "%s", text);
 }
 
-/* Names the file in failures that speak of a model only. */
-static pia_status at_file(reader *r, pia_status status)
-{
-    if (status != PIA_E_DATA && status != PIA_E_ARGUMENT && status != PIA_E_SHAPE) return status;
-    char why[300];
-    snprintf(why, sizeof why, "%s", pia_message(r->context));
-    return pia_input_fail(r->context, r->input, NULL, "holds a spline that is none: %s", why);
-}
-
 pia_status pia_occt_parse(pia_context *context, const pia_input *input, const char *bytes, pia_index size, pia_model ***out,
                           pia_index *count)
 {
@@ -163,7 +154,7 @@ pia_status pia_occt_parse(pia_context *context, const pia_input *input, const ch
         if (!grown)
             status = pia_fail(context, PIA_E_MEMORY, "%s: out of memory for its models; free memory", input->path);
         else if (kind == PIA_OCCT_SPLINE)
-            status = at_file(&r, read_spline(&r, &list[found]));
+            status = pia_input_judge(context, input, NULL, "holds a spline that is none: ", read_spline(&r, &list[found]));
         else
             status = kind == PIA_OCCT_ERROR ? read_error(&r) : fail_cut(&r);
         if (status == PIA_OK) found++;

@@ -66,6 +66,7 @@ static void g2_that_is_damaged_is_refused_with_its_line(void **state)
         {"100 1 0 0\n2 0\n2 2\n0 0 1 1\n0 0\n1 x\n", ":6: a finite number"},
         {"100 1 0 0\n2 1\n2 2\n0 0 1 1\n0 0 0\n1 1 1\n", "weight"},
         {"100 1 0 0\n2 0\n2 2\n0 0 1", "too short"},
+        {"100 1 0 0\n1 0\n2 2\n2 2 0 0\n0\n1\n", "bad.g2:6: knot"},
     };
     pia_model **models;
     pia_index count;
