@@ -169,8 +169,8 @@ void pia_fit_describe_support(pia_fit *fit)
 {
     if (fit->unsupported_count == 0) return;
     pia_fit_outcome_add(fit,
-                        fit->pull > 0 ? "control points that the data do not hold, kept near the start"
-                                      : "control points that the data do not hold, kept near the start",
+                        fit->options.fairing > 0 ? "control points that the data do not hold, left to fairing"
+                                                 : "control points that the data do not hold, kept near the start",
                         fit->unsupported, fit->unsupported_count);
 }
 

@@ -249,6 +249,10 @@ static void fairing_bridges_a_gap(void **state)
     assert_ok(*state, pia_fit_data(*state, &n.data, &n.options, &model, NULL));
     assert_ok(NULL, pia_model_eval(NULL, model, &at, 1, 0, value));
     assert_near(value[1], 2.5, 1e-7);
+    int told = 0;
+    const char *note;
+    for (pia_index i = 0; (note = pia_model_note(model, i)) != NULL; i++) told |= strstr(note, "do not hold, left to fairing") != NULL;
+    assert_true(told);
     pia_model_destroy(model);
 }
 
