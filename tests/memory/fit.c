@@ -104,7 +104,7 @@ static void survive_with_every_method(problem (*make)(const char *method))
     assert_true(covered >= 2);
 }
 
-static void a_curve_fit_survives_every_failure(void **state)
+static void t_peer_10_a_curve_fit_survives_every_failure(void **state)
 {
     (void)state;
     survive_with_every_method(curve_problem);
@@ -133,13 +133,53 @@ static void dominant_columns_survive_every_failure(void **state)
     assert_survives_failures(fit_in_one_call, &p);
 }
 
+/* Blocks aligned as asked and no better, which only their own allocator can take back: the address of the whole stands before each. */
+static void *barely_aligned(void *user, size_t size, size_t align)
+{
+    char *whole;
+    size_t step = align < sizeof whole ? sizeof whole : align;
+    if (posix_memalign((void **)&whole, 2 * step, size + step) != 0) return NULL;
+    memcpy(whole + step - sizeof whole, &whole, sizeof whole);
+    ++*(int64_t *)user;
+    return whole + step;
+}
+
+static void take_back(void *user, void *block)
+{
+    char *whole;
+    if (block == NULL) return;
+    memcpy(&whole, (char *)block - sizeof whole, sizeof whole);
+    --*(int64_t *)user;
+    free(whole);
+}
+
+static void t_peer_18_blocks_need_no_more_than_the_alignment_asked_and_go_back_where_they_came_from(void **state)
+{
+    (void)state;
+    int64_t blocks = 0;
+    pia_context_options options;
+    pia_context *context = NULL;
+    pia_context_options_init(&options);
+    options.allocate = barely_aligned;
+    options.release = take_back;
+    options.user = &blocks;
+    assert_ok(NULL, pia_context_create(&options, &context));
+    problem curve = curve_problem("direct"), grid = grid_problem("lspia"), loose = epia_problem();
+    assert_ok(context, fit_in_one_call(context, &curve));
+    assert_ok(context, fit_in_one_call(context, &grid));
+    assert_ok(context, fit_in_one_call(context, &loose));
+    pia_context_destroy(context);
+    assert_int_equal(blocks, 0);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(knot_insertion_survives_every_failure),
         cmocka_unit_test(dominant_columns_survive_every_failure),
-        cmocka_unit_test(a_curve_fit_survives_every_failure),
+        cmocka_unit_test(t_peer_10_a_curve_fit_survives_every_failure),
         cmocka_unit_test(a_grid_fit_survives_every_failure),
+        cmocka_unit_test(t_peer_18_blocks_need_no_more_than_the_alignment_asked_and_go_back_where_they_came_from),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
