@@ -45,6 +45,7 @@ static pia_status check_head(reader *r, const pia_index head[PIA_OCCT_HEAD])
     for (pia_index d = 0; good && d < head[PIA_OCCT_DIRECTIONS]; d++)
         good = head[PIA_OCCT_DEGREE_U + d] >= 1 && head[PIA_OCCT_DEGREE_U + d] <= PIA_MAX_DEGREE && head[PIA_OCCT_CONTROL_U + d] >= 2 &&
                head[PIA_OCCT_CONTROL_U + d] <= r->end - r->at;
+    if (head[PIA_OCCT_DIRECTIONS] == 1) good = good && head[PIA_OCCT_CONTROL_V] == 1 && head[PIA_OCCT_LOOPS] == 0;
     good = good && head[PIA_OCCT_LOOPS] >= 0 && head[PIA_OCCT_LOOPS] <= r->end - r->at &&
            pia_multiply(head[PIA_OCCT_CONTROL_U], head[PIA_OCCT_CONTROL_V], &values) && values <= r->end - r->at;
     return good ? PIA_OK : fail_cut(r);

@@ -138,6 +138,11 @@ static void claims_beyond_the_bytes_are_refused(void **state)
             assert_status(context, parse(context, &m, 8 * m.count, &models, &count), PIA_E_FORMAT);
             pia_context_destroy(context);
         }
+    for (int64_t columns = 0; columns <= 2; columns += 2) {
+        message curve = arc();
+        curve.value[6] = columns; /* of a curve: one, or there are not the points it needs */
+        refused(&curve, 8 * curve.count, "broke off");
+    }
     message unknown = {{77}, 1};
     refused(&unknown, 8, "broke off");
 }
