@@ -55,6 +55,20 @@ static void measure_spacing(const double *points, pia_index count, int dim, stru
     out->closed = count > 2 && out->extent > 0 && distance_between(points, points + (count - 1) * dim, dim) <= 1e-12 * out->extent;
 }
 
+/* What the noise of a curve or grid suggests; 0 where it suggests nothing. */
+static double suggestion(const struct point_source *source, const pia_points_info *info, const struct row_span *span, double *noise)
+{
+    double tolerance;
+    pia_data data;
+    pia_data_init(&data);
+    data.kind = info->kind;
+    data.dim = info->dim;
+    data.points = info->points + span->first * info->dim;
+    data.count[0] = info->kind == PIA_GRID ? info->count[0] : span->count;
+    data.count[1] = info->kind == PIA_GRID ? info->count[1] : 1;
+    return pia_suggest_tolerance(source->session->context, &data, &tolerance, noise) == PIA_OK && tolerance > 0 ? tolerance : 0;
+}
+
 static struct figures measure(const pia_points_info *info, const struct row_span *span)
 {
     struct figures figures = {.holes = 0};
@@ -99,19 +113,25 @@ static void print_text(const struct point_source *source, const struct point_set
         if (info->part_count > 1)
             printf("part %-7lld %lld points from row %lld\n", (long long)part, (long long)span.count, (long long)row);
         print_figures(&figures, info);
+        double noise, tolerance = suggestion(source, info, &span, &noise);
+        if (tolerance > 0) printf("noise        about %.3g a component; --tolerance %.3g keeps it out\n", noise, tolerance);
     }
 }
 
 /* ---- JSON ---- */
 
-static void put_figures(struct json_writer *json, const pia_points_info *info, const struct row_span *span)
+static void put_figures(struct json_writer *json, const struct point_source *source, const pia_points_info *info,
+                        const struct row_span *span)
 {
+    double noise, tolerance = suggestion(source, info, span, &noise);
     struct figures figures = measure(info, span);
     json_count(json, "point_count", span->count);
     json_numbers(json, "low", figures.low, info->dim);
     json_numbers(json, "high", figures.high, info->dim);
     json_number(json, "extent", figures.extent);
     json_count(json, "holes", figures.holes);
+    json_number(json, "noise", tolerance > 0 ? noise : NAN);
+    json_number(json, "suggested_tolerance", tolerance > 0 ? tolerance : NAN);
     if (info->kind != PIA_CURVE) return;
     json_truth(json, "closed", figures.closed);
     json_count(json, "duplicates", figures.duplicates);
@@ -138,13 +158,13 @@ static void print_json(const struct point_source *source, const struct point_set
     json_open(json, "columns", '[');
     for (int k = 0; info->names && k < info->dim; k++) json_text(json, NULL, info->names[k]);
     json_close(json, ']');
-    put_figures(json, info, &all);
+    put_figures(json, source, info, &all);
     json_open(json, "parts", '[');
     for (pia_index k = 0; k < parts; k++) {
         struct row_span span = points_span(set, first + k);
         json_open(json, NULL, '{');
         json_count(json, "first_row", span.count ? row_in_file(&span, 0) : 0);
-        put_figures(json, info, &span);
+        put_figures(json, source, info, &span);
         json_close(json, '}');
     }
     json_close(json, ']');

@@ -253,6 +253,20 @@ static pia_status choose_placement(pia_fit *fit)
     return PIA_OK;
 }
 
+/* Where foot points were asked for and are not to be had. */
+static void note_measure(pia_fit *fit)
+{
+    const pia_fit_options *o = &fit->options;
+    if (!o->measure_distance && o->correct <= 0) return;
+    if (fit->directions == 2 || fit->function_graph)
+        pia_fit_note_add(fit,
+                         "parameters are corrected for curves only: deviations are those at the parameters given or chosen, and true "
+                         "distances are never larger");
+    else if (fit->square || (o->measure_distance && !fit->refining))
+        pia_fit_note_add(fit, "true distance is what a tolerance without a number of control points can ask for; here deviations are "
+                              "those at the parameters");
+}
+
 pia_status pia_fit_choose(pia_fit *fit)
 {
     for (int d = 0; d < fit->directions; d++) {
@@ -265,6 +279,7 @@ pia_status pia_fit_choose(pia_fit *fit)
     pia_status status = choose_method(fit);
     if (status == PIA_OK) status = pia_fit_choose_loss(fit);
     if (status == PIA_OK) status = check_fairing(fit);
+    if (status == PIA_OK) note_measure(fit);
     if (status == PIA_OK) status = choose_limiter(fit);
     if (status == PIA_OK) status = choose_placement(fit);
     const char *name = fit->options.parametrization;

@@ -36,7 +36,7 @@ double pia_refine_parameter(const pia_fit *fit, int d, pia_index row)
 
 int pia_refine_reached(const pia_fit *fit)
 {
-    return pia_refine_worst(fit, 0, fit->rows) <= 1;
+    return pia_refine_worst_of_all(fit) <= 1;
 }
 
 pia_status pia_refine(pia_fit *fit, pia_index iterations)

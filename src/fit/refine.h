@@ -58,6 +58,8 @@ pia_status pia_refine_conditions(const pia_fit *fit, pia_draft_condition **condi
 double pia_refine_allowed(const pia_fit *fit, pia_index row);
 double pia_refine_ratio(const pia_fit *fit, pia_index row, const double *deviation);
 double pia_refine_worst(const pia_fit *fit, pia_index begin, pia_index end);
+/* The same among all rows, from the errors just measured where all may deviate alike. */
+double pia_refine_worst_of_all(const pia_fit *fit);
 /* Between rounds: calls the progress callback and looks at the clock. Returns 1 when the fit is to stop, with solve.stop set, or to
  * pause because the iterations asked are done. */
 int pia_refine_stopped(pia_fit *fit);

@@ -28,6 +28,12 @@ double pia_refine_worst(const pia_fit *fit, pia_index begin, pia_index end)
     return worst;
 }
 
+double pia_refine_worst_of_all(const pia_fit *fit)
+{
+    int alike = fit->tolerances == NULL && fit->weights == NULL && fit->iterate.errors_known;
+    return alike ? fit->iterate.errors.max / fit->options.tolerance : pia_refine_worst(fit, 0, fit->rows);
+}
+
 /* Parts that a span is to be split into: the error of a degree p spline falls with the (p + 1)st power of its spans. */
 static int parts_of(const pia_fit *fit, double ratio)
 {

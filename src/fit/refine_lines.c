@@ -91,12 +91,13 @@ static pia_status try_without(pia_fit *fit, int d, trial *t, int *taken)
     return status;
 }
 
-static pia_status spare_lines(pia_fit *fit, int d, trial *t, pia_index *spared)
+/* Many lines at a time, or one by one. */
+static pia_status spare_lines(pia_fit *fit, int d, int many, trial *t, pia_index *spared)
 {
-    pia_index batch = (pia_refine_inside_count(fit, d) + 3) / 4, misses = 0;
+    pia_index batch = many ? (pia_refine_inside_count(fit, d) + 3) / 4 : 1, misses = 0;
     pia_status status = PIA_OK;
     t->failures = 0;
-    while (status == PIA_OK && misses < MAX_MISSES && !pia_refine_stopped(fit)) {
+    while (status == PIA_OK && batch > many && misses < MAX_MISSES && !pia_refine_stopped(fit)) {
         pia_index least = fit->closed[d] ? (fit->degree[d] > 3 ? fit->degree[d] : 3) : 0; /* a period keeps so many knots */
         pia_index going = pia_refine_inside_count(fit, d) > least ? choose(fit, d, batch, t) : 0;
         int taken = 0;
@@ -116,7 +117,7 @@ static pia_status spare_lines(pia_fit *fit, int d, trial *t, pia_index *spared)
     return status;
 }
 
-static pia_status spare_direction(pia_fit *fit, int d, pia_index *spared)
+static pia_status spare_direction(pia_fit *fit, int d, int many, pia_index *spared)
 {
     pia_index count = pia_refine_inside_count(fit, d);
     trial t = {.order = pia_take(fit->context, count, sizeof *t.order),
@@ -124,7 +125,7 @@ static pia_status spare_direction(pia_fit *fit, int d, pia_index *spared)
                .gone = pia_take(fit->context, count, 1),
                .failed = pia_take(fit->context, count, sizeof *t.failed)};
     pia_status status = t.order != NULL && t.kept != NULL && t.gone != NULL && t.failed != NULL ? PIA_OK : PIA_E_MEMORY;
-    if (status == PIA_OK) status = spare_lines(fit, d, &t, spared);
+    if (status == PIA_OK) status = spare_lines(fit, d, many, &t, spared);
     pia_give(fit->context, t.order);
     pia_give(fit->context, t.kept);
     pia_give(fit->context, t.gone);
@@ -136,6 +137,7 @@ pia_status pia_refine_spare_lines(pia_fit *fit, pia_index *spared)
 {
     pia_status status = PIA_OK;
     *spared = 0;
-    for (int d = 0; d < fit->directions && status == PIA_OK; d++) status = spare_direction(fit, d, spared);
+    for (int many = 1; many >= 0; many--)
+        for (int d = 0; d < fit->directions && status == PIA_OK; d++) status = spare_direction(fit, d, many, spared);
     return status;
 }

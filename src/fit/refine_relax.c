@@ -15,16 +15,14 @@ static const double FAR = 1.7, LATE = 0.25, HALF = 10;
 enum { ROUNDS = 64, LOOK = 8, GRAIN = 4096, CHUNKS = 64 };
 
 /* Rounds times rows in one refinement: a few seconds. */
-static const double MOST = 1e8;
+static const double MOST = 1.5e8;
 
 /* Rows are brought a little inside of what they may deviate, so that the spline comes in with them. */
 static const double INSIDE = 0.999;
 
-/* Rows begin .. end - 1 of one round, and of the question how far the largest ratio is. */
 typedef struct round_work {
     const pia_fit *fit;
     double *x, *missing;
-    double worst[CHUNKS];
     pia_index chunks;
 } round_work;
 
@@ -32,34 +30,20 @@ typedef struct round_work {
 static void reflect_chunk(void *work, pia_index chunk)
 {
     const round_work *w = work;
-    const double *a = w->fit->iterate.residual;
     int dim = w->fit->dim;
-    for (pia_index row = pia_chunk_begin(w->fit->rows, w->chunks, chunk); row < pia_chunk_begin(w->fit->rows, w->chunks, chunk + 1);
-         row++) {
-        double reflected[PIA_MAX_DIM];
-        for (int d = 0; d < dim; d++) reflected[d] = 2 * a[row * dim + d] - w->x[row * dim + d];
-        double ratio = pia_refine_ratio(w->fit, row, reflected) / INSIDE, factor = ratio > 1 ? 1 / ratio : 1;
+    pia_index begin = pia_chunk_begin(w->fit->rows, w->chunks, chunk), end = pia_chunk_begin(w->fit->rows, w->chunks, chunk + 1);
+    for (pia_index row = begin; row < end; row++) {
+        const double *a = w->fit->iterate.residual + row * dim;
+        double *x = w->x + row * dim, *missing = w->missing + row * dim;
+        double reflected[PIA_MAX_DIM], square = 0, allowed = INSIDE * pia_refine_allowed(w->fit, row);
+        for (int d = 0; d < dim; d++) reflected[d] = 2 * a[d] - x[d];
+        for (int d = 0; d < dim; d++) square += reflected[d] * reflected[d];
+        double factor = square > allowed * allowed ? allowed / sqrt(square) : 1;
         for (int d = 0; d < dim; d++) {
-            pia_index at = row * dim + d;
-            w->x[at] += factor * reflected[d] - a[at];
-            w->missing[at] = a[at] - w->x[at];
+            x[d] += factor * reflected[d] - a[d];
+            missing[d] = a[d] - x[d];
         }
     }
-}
-
-static void worst_chunk(void *work, pia_index chunk)
-{
-    round_work *w = work;
-    w->worst[chunk] =
-        pia_refine_worst(w->fit, pia_chunk_begin(w->fit->rows, w->chunks, chunk), pia_chunk_begin(w->fit->rows, w->chunks, chunk + 1));
-}
-
-static double worst_of(round_work *w)
-{
-    double worst = 0;
-    pia_for_each(w->fit->context, w->chunks, worst_chunk, w);
-    for (pia_index k = 0; k < w->chunks; k++) worst = fmax(worst, w->worst[k]);
-    return worst;
 }
 
 /* The spline whose residuals are nearest to x. */
@@ -92,13 +76,13 @@ static pia_status search(pia_fit *fit, double *x, double *missing)
         for (pia_index i = 0; i < size; i++) missing[i] = a[i] - x[i];
         status = project(fit, missing);
     }
-    double ratio = worst_of(&w), best = ratio;
+    double ratio = pia_refine_worst_of_all(fit), best = ratio;
     if (ratio > FAR) return status;
     for (; k < ROUNDS && status == PIA_OK && ratio > 1; k++) {
         if (k > 0 && k % LOOK == 0 && best > 1 + LATE * exp2(-(double)k / HALF)) break;
         pia_for_each(fit->context, w.chunks, reflect_chunk, &w);
         status = project(fit, missing);
-        ratio = worst_of(&w);
+        ratio = pia_refine_worst_of_all(fit);
         best = fmin(best, ratio);
     }
     fit->relaxation += (double)k * (double)fit->rows;
