@@ -46,11 +46,11 @@ export function convergence(model, element) {
     const ys = powers(low, high), path = column => rows.filter(r => r[column] > 0).map((r, i) => `${i ? 'L' : 'M'}${atX(r[0]).toFixed(1)} ${atY(r[column]).toFixed(1)}`).join('');
     const name = model.fits[0]?.round_count > 0 ? 'Round' : 'Iteration', growing = rows.some(r => r[1] !== rows[0][1]);
     const dots = column => rows.length > 40 ? [] : rows.filter(r => r[column] > 0).map(r => make('svg:circle', {cx: atX(r[0]), cy: atY(r[column]), r: 2.75, class: column === 2 ? 'max' : 'rms'}));
-    const marker = make('svg:g', {class: 'now'}, line(0, BOX.top, 0, HEIGHT - BOX.bottom, 'now'), make('svg:circle', {r: 5, class: 'now'}));
+    const marker = make('svg:g', {class: 'now', visibility: 'hidden'}, line(0, BOX.top, 0, HEIGHT - BOX.bottom, 'now'), make('svg:circle', {r: 5, class: 'now'}));
     const counts = growing && rows.length <= 14 ? rows.map(r => text(atX(r[0]), atY(r[2]) - 9, 'note', count(r[1]))) : [];
     const story = `The largest error goes from ${number(rows[0][2])} to ${number(rows[rows.length - 1][2])} in ${name.toLowerCase()}s ${first} to ${last}.`;
     const goal = model.tolerance ? [line(BOX.left, atY(model.tolerance), WIDTH - BOX.right, atY(model.tolerance), 'goal'), text(BOX.left + 6, atY(model.tolerance) - 6, 'goal', `tolerance ${number(model.tolerance)}`, 'start')] : [];
-    element.append(make('h2', {}, 'Convergence'), make('p', {class: 'key'}, make('span', {class: 'swatch max'}), 'largest error', make('span', {class: 'swatch rms'}), 'RMS error',
+    element.append(make('h2', {}, model.figures.length > 1 ? 'Convergence of the first model' : 'Convergence'), make('p', {class: 'key'}, make('span', {class: 'swatch max'}), 'largest error', make('span', {class: 'swatch rms'}), 'RMS error',
         counts.length ? make('span', {class: 'aside'}, 'numbers: control points') : ''),
         chart('Convergence', story, ...axes(xs, xs.map(count), atX, ys, ys.map(y => number(y, 1)), atY, name), ...goal,
             make('svg:path', {d: path(3), class: 'rms'}), make('svg:path', {d: path(2), class: 'max'}), ...dots(3), ...dots(2), ...counts, marker),

@@ -29,7 +29,7 @@ export function defaultsOf(model) {
 }
 
 function slider(label, state, key, range, write) {
-    const out = make('output', {}), input = make('input', {type: 'range', min: -range, max: range, step: 0.05, id: `scale-${key}`,
+    const out = make('output', {'aria-live': 'off'}), input = make('input', {type: 'range', min: -range, max: range, step: 0.05, id: `scale-${key}`,
         oninput: () => state.set({[key]: Number((10 ** Number(input.value)).toPrecision(3))}, 'controls')});
     const show = () => {
         input.value = Math.log10(state.values[key]);
@@ -72,7 +72,7 @@ export function controls(model, state, element, view) {
     parts.push(make('div', {class: 'camera'}, button('\u2212', 'Zoom out', () => view.act('out')), button('+', 'Zoom in', () => view.act('in')), button('Show all', 'Show all', () => view.act('all')),
         ...(model.data ? [button('Farthest point', 'Go to the farthest point', () => view.act('worst'))] : [])));
     element.append(...parts);
-    const update = () => updates.forEach(f => f());
+    const update = event => event?.source === 'replay' || updates.forEach(f => f());
     state.addEventListener('change', update);
     update();
 }
@@ -84,15 +84,16 @@ function scaleLegend(title, map, low, middle, high) {
 }
 
 export function legend(model, state, element, view) {
-    const update = () => {
-        const {mode} = state.values, parts = [], unit = model.space ? 'units of the data' : '';
+    const update = event => {
+        const {mode} = state.values, parts = [];
+        if (event?.source === 'replay') return;
         const signed = (title, range, digits = 3) => parts.push(scaleLegend(title, 'diverging', number(-range, digits), '0', number(range, digits)));
         if (model.surface && mode === 'deviation') signed('Deviation, units of the data', view.range('deviation'));
         else if (model.surface && mode === 'gaussian') signed('Gaussian curvature, 1/unit\u00b2', view.range('gaussian'));
         else if (model.surface && mode === 'mean') signed('Mean curvature, 1/unit', view.range('mean'));
         else if (model.data && state.shows('points') && model.data.largest > 0) {
-            if (model.surface && model.data.sides) signed('Points: deviation, units of the data', model.data.largest);
-            else parts.push(scaleLegend(`Points: deviation${unit ? ', ' + unit : ''}`, 'sequential', '0', number(model.data.largest / 2), number(model.data.largest)));
+            if (model.surface && model.data.sides) signed('Deviation of points', model.data.largest);
+            else parts.push(scaleLegend('Deviation of points', 'sequential', '0', number(model.data.largest / 2), number(model.data.largest)));
         }
         element.replaceChildren(...parts);
         element.hidden = !parts.length;

@@ -53,10 +53,12 @@ function theme(state) {
 
 function readout(model, state, hovered) {
     const {data, dim} = model, i = hovered >= 0 ? hovered : state.point(), element = byId('readout');
-    if (!data || i < 0) { element.textContent = ''; return; }
+    const show = text => { if (element.textContent !== text) element.textContent = text; };
+    if (!data || i < 0) { show(''); return; }
     const names = ['x', 'y', 'z'], at = Array.from({length: dim}, (_, c) => `${names[c]} ${coordinate(data.position[i * dim + c], model.diagonal)}`);
     const frame = Math.max(0, Math.round(state.frame())), deviation = model.deviations(frame)[i];
-    element.textContent = `${rowName(model, i)[0].toUpperCase()}${rowName(model, i).slice(1)} \u00b7 ${at.join('  ')} \u00b7 deviation ${number(data.sides ? deviation : Math.abs(deviation), 4)}`;
+    const name = rowName(model, i);
+    show(`${name[0].toUpperCase()}${name.slice(1)} \u00b7 ${at.join('  ')} \u00b7 deviation ${number(data.sides ? deviation : Math.abs(deviation), 4)}`);
 }
 
 /** The view of the figure with everything that moves it. */
@@ -80,6 +82,7 @@ class Figure {
             zoom: (factor, x, y) => this.moved(() => this.view.zoomAt(factor, x, y)), hover: (x, y) => this.hover(this.view.pick(x, y)),
             tap: (x, y) => this.choose(this.view.pick(x, y, 24)), key: key => this.key(key)});
         element.addEventListener('pointerleave', () => this.hover(-1));
+        addEventListener('beforeprint', () => this.view.draw());
     }
 
     resize() {
@@ -161,7 +164,7 @@ async function start() {
     if (shown) {
         controls(model, state, byId('controls'), shown);
         legend(model, state, byId('legend'), shown);
-        shown.replay = replay(model, state, byId('replay'), at => chart?.mark(at.iteration, at.maxError));
+        shown.replay = replay(model, state, byId('replay'), at => model.figures.length === 1 && chart?.mark(at.iteration, at.maxError));
     }
     document.documentElement.dataset.ready = Math.round(performance.now());
 }

@@ -29,9 +29,10 @@ export class PlaneView {
         this.canvas.height = Math.round(height * ratio);
         this.context.setTransform(ratio, 0, 0, ratio, 0, 0);
         const inner = [width - MARGIN.left - MARGIN.right, height - MARGIN.top - MARGIN.bottom];
-        const size = [0, 1].map(c => (this.model.high[c] - this.model.low[c]) * 1.06 || this.model.diagonal);
+        this.combed = this.state.shows('comb');
+        const room = this.combed ? 1.36 : 1.06, size = [0, 1].map(c => (this.model.high[c] - this.model.low[c]) * room || this.model.diagonal);
         this.combs.clear();
-        const own = inner.map((room, c) => Math.max(room, 40) / size[c]);
+        const own = inner.map((pixels, c) => Math.max(pixels, 40) / size[c]);
         this.fitted = this.model.graph ? own : [Math.min(...own), Math.min(...own)];
     }
 
@@ -105,6 +106,7 @@ export class PlaneView {
         const {context, width, height, state} = this;
         this.colours = palette();
         this.frame = state.frame();
+        if (this.combed !== state.shows('comb')) this.resize(width, height);
         context.clearRect(0, 0, width, height);
         this.drawGrid();
         context.save();

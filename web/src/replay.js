@@ -11,10 +11,11 @@ export function replay(model, state, element, onFrame) {
     const rounds = model.fits[0]?.round_count > 0;
     const words = frame => {
         const at = frames[Math.round(frame)], error = at.maxError;
+        if (model.figures.length > 1) return `Frame ${count(Math.round(frame) + 1)} of ${count(model.frameCount)}`;
         return `${rounds ? 'Round' : 'Iteration'} ${count(at.iteration)} \u00b7 ${count(at.controlCount)} control points \u00b7 largest error ${number(error)}`;
     };
     const input = make('input', {type: 'range', min: 0, max: end, step: 'any', 'aria-label': 'Replay of the iterations', oninput: () => { stop(); show(Number(input.value)); }});
-    const out = make('output', {}), button = make('button', {type: 'button', class: 'play', onclick: () => playing ? stop() : play()});
+    const out = make('output', {'aria-live': 'off'}), button = make('button', {type: 'button', class: 'play', onclick: () => playing ? stop() : play()});
     const ticks = make('div', {class: 'ticks', 'aria-hidden': 'true'}, ...frames.map((_, k) => make('i', {style: `left: ${100 * k / end}%`})));
     let playing = false, before = 0;
     const face = () => {

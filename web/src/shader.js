@@ -110,18 +110,18 @@ void main() {
 const pointFragment = `
 uniform sampler2D map;
 uniform vec3 plain, rim;
-uniform float mapped, size;
+uniform float mapped, size, edge;
 varying float vValue;
 void main() {
     float r = length(gl_PointCoord - 0.5) * 2.0, soft = 2.0 / size;
     if (r > 1.0) discard;
     vec3 inner = mapped > 0.5 ? texture2D(map, vec2(clamp(0.5 + 0.5 * vValue, 0.002, 0.998), 0.5)).rgb : plain;
-    gl_FragColor = vec4(mix(inner, rim, smoothstep(1.0 - 3.2 / size - soft, 1.0 - 3.2 / size, r) * 0.85), 1.0);
+    gl_FragColor = vec4(mix(inner, rim, smoothstep(1.0 - 3.2 / size - soft, 1.0 - 3.2 / size, r) * edge), 1.0);
 }`;
 
-/** Round points with a rim, drawn a little nearer than they are, so that the surface they lie on does not swallow half of them. */
-export function pointMaterial(map, size, plain, rim, mapped) {
+/** Round points with a rim, whose strength is `edge`, drawn a little nearer than they are, so that the surface they lie on does not swallow half of them. */
+export function pointMaterial(map, size, plain, rim, mapped, edge) {
     return new ShaderMaterial({
         vertexShader: pointVertex, fragmentShader: pointFragment,
-        uniforms: {map: {value: map}, size: {value: size}, nearer: {value: 0.002}, plain: {value: plain}, rim: {value: rim}, mapped: {value: mapped ? 1 : 0}}});
+        uniforms: {map: {value: map}, size: {value: size}, nearer: {value: 0.002}, plain: {value: plain}, rim: {value: rim}, mapped: {value: mapped ? 1 : 0}, edge: {value: edge}}});
 }

@@ -21,7 +21,7 @@ const HOME = {azimuth: -55, elevation: 32, distance: 1};
 export class SpaceView {
     constructor(element, model, state) {
         Object.assign(this, {element, model, state});
-        this.renderer = new WebGLRenderer({antialias: true, alpha: true, preserveDrawingBuffer: true});
+        this.renderer = new WebGLRenderer({antialias: true, alpha: true});
         this.renderer.outputColorSpace = LinearSRGBColorSpace;
         element.append(this.renderer.domElement);
         this.labels = document.createElement('div');
@@ -139,7 +139,7 @@ export class SpaceView {
         return Float32Array.from(this.curvatures(entry)[mode], v => Number.isFinite(v) ? v / range : NO_VALUE);
     }
 
-    /** A frame on the nodes of the replay: positions, normals by differences, and deviations moved by the way to the end. */
+    /** A frame on the nodes of the replay: positions, normals by differences, and deviations moved by the way to the end along them. */
     frameState(entry, k) {
         entry.states ??= new Map();
         if (entry.states.has(k)) return entry.states.get(k);
@@ -148,14 +148,9 @@ export class SpaceView {
         const value = Float32Array.from(entry.coarseMap ??= this.mapped(figure, nodes)), final = figure.replay.positions(end), range = this.range('deviation');
         for (let i = 0; i < value.length; i++) {
             if (value[i] === NO_VALUE) continue;
-            let along = 0, size = 0;
-            for (let c = 0; c < 3; c++) {
-                const way = final[3 * i + c] - values[3 * i + c];
-                along += way * normal[3 * i + c];
-                size += way * way;
-            }
-            value[i] += (along < 0 ? -1 : 1) * Math.sqrt(size) / range;
-            value[i] = Math.max(-1.2, Math.min(1.2, value[i]));
+            let along = 0;
+            for (let c = 0; c < 3; c++) along += (final[3 * i + c] - values[3 * i + c]) * normal[3 * i + c];
+            value[i] = Math.max(-1.2, Math.min(1.2, value[i] + along / range));
         }
         const state = {position: new BufferAttribute(position, 3), normal: new BufferAttribute(normal, 3), value: new BufferAttribute(value, 1)};
         entry.states.set(k, state);
@@ -221,7 +216,7 @@ export class SpaceView {
         const range = this.range('deviation');
         geometry.setAttribute('value', new BufferAttribute(Float32Array.from({length: values.length / 3}, (_, i) => deviations ? deviations[i] / range : 0), 1));
         const rgb = new Color(colour), rim = new Color(rimColour), ratio = this.renderer.getPixelRatio();
-        const points = new Points(geometry, pointMaterial(map, size * ratio, new Vector3(rgb.r, rgb.g, rgb.b), new Vector3(rim.r, rim.g, rim.b), deviations !== null));
+        const points = new Points(geometry, pointMaterial(map, size * ratio, new Vector3(rgb.r, rgb.g, rgb.b), new Vector3(rim.r, rim.g, rim.b), deviations !== null, size < 7 ? 0.3 : 0.85));
         points.frustumCulled = false;
         return points;
     }
@@ -383,6 +378,9 @@ export class SpaceView {
             this.box = {key, object: this.segments(this.farEdges(corner, near), this.colours.line, 1)};
             this.group.add(this.box.object);
         }
+        const seen = [this.camera, this.width, this.height, this.stretch].join();
+        if (this.labelled === seen) return;
+        this.labelled = seen;
         this.labels.replaceChildren();
         this.labelAxis(0, [[0, 0], [1, 0]].map(([j, k]) => [corner(0, j, k), corner(1, j, k)]), 1);
         this.labelAxis(1, [[0, 0], [1, 0]].map(([i, k]) => [corner(i, 0, k), corner(i, 1, k)]), 1);

@@ -61,16 +61,16 @@ function waySentence(model) {
 /** {tone: good | bad | plain, text}: whether what was wanted is reached. */
 export function verdict(model) {
     const {data, tolerance, fits} = model, stop = STOPS[fits.find(f => f && f.reached === false)?.stop ?? fits[0]?.stop];
-    if (!tolerance) return {tone: 'plain', text: fits[0] ? 'No tolerance asked' : 'Model report'};
-    const reached = fits.every(f => f && f.reached !== false);
-    if (reached) return {tone: 'good', text: `Tolerance ${number(tolerance)} reached`};
-    const excess = data ? `: the farthest point is ${number(data.largest / tolerance, 2)} times as far` : '';
-    return {tone: 'bad', text: `Tolerance ${number(tolerance)} not reached${excess}`, why: stop};
+    const asked = tolerance || fits.some(f => f && f.reached !== null), name = tolerance ? `Tolerance ${number(tolerance)}` : 'Tolerance';
+    if (!asked) return {tone: 'plain', text: fits[0] ? 'No tolerance asked' : 'No fit'};
+    if (fits.every(f => f && f.reached !== false)) return {tone: 'good', text: `${name} reached`};
+    const excess = data && tolerance ? `: the farthest point is ${number(data.largest / tolerance, 2)} times as far` : '';
+    return {tone: 'bad', text: `${name} not reached${excess}`, why: stop};
 }
 
 export function sentences(model) {
     const {why} = verdict(model), fit = model.fits[0];
-    const stopped = why ? `The fit ended because ${why}.` : !model.tolerance && fit ? `It ended because ${STOPS[fit.stop]}.` : '';
+    const stopped = why ? `The fit ended because ${why}.` : fit && fit.reached === null ? `It ended because ${STOPS[fit.stop]}.` : '';
     return [whatSentence(model), errorSentence(model), [waySentence(model), stopped].filter(Boolean).join(' ')].filter(Boolean);
 }
 
@@ -94,6 +94,7 @@ export function keyFigures(model) {
     if (data) out.push(['Points', count(data.all)]);
     out.push(['Control points', count(controls), data ? `${number(data.all / controls, 2)} points each` : '']);
     if (data) out.push(['Largest error', number(data.largest, 4), rowName(model, data.farthest)], ['RMS error', number(data.rms), model.tolerance ? `${number(100 * data.rms / model.tolerance, 2)}\u00a0% of tolerance` : '']);
+    if (data && !model.tolerance) out.push(['99 of 100 points', number(data.percentiles[2]), 'or nearer']);
     if (fit) out.push([fit.round_count > 0 ? 'Rounds' : 'Iterations', count(fit.round_count > 0 ? fit.round_count : fit.iterations), seconds(fit.seconds)]);
     if (fit && fit.constraint_error !== null) out.push(['Constraints', number(fit.constraint_error), 'largest violation']);
     return out;
