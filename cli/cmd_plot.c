@@ -14,6 +14,7 @@ struct request {
     const char *model, *model_format, *trace;
     struct texts outputs;
     pia_plot_options options;
+    const char *command; /* the command line, as a shell takes it */
 };
 
 enum {
@@ -106,10 +107,11 @@ static error_t parse(int key, char *arg, struct argp_state *state)
 static const struct argp_child children[] = {{&point_source_argp, 0, NULL, 0}, {&common_argp, 0, NULL, 0}, {0}};
 static const char manual[] =
     "A picture of a model with the points it stands for: curve, knots, control polygon, deviation in colours; a\n"
-    "surface as a shaded wireframe.\v"
+    "surface as a shaded wireframe. A file .html is the interactive report, which shows whatever its reader asks.\v"
     "Examples:\n"
     "  pia plot model.json points.csv -o picture.svg\n"
     "  pia plot model.json --comb --no-control -o comb.pdf\n"
+    "  pia plot model.json points.csv -o report.html\n"
     "  pia plot surface.json grid.csv --grid 11x11 --view 30,40 --size 1200x900 -o view.png";
 static const struct argp argp = {options, parse, "MODEL [POINTS]", manual, children, NULL, NULL};
 
@@ -138,6 +140,25 @@ static int read_trace(struct request *request)
     return code;
 }
 
+/* A page tells more than a picture: where its points are from, what each is called, and how it was made. */
+static pia_status write_page(const struct request *request, const char *path, const pia_model *const *models, pia_index count,
+                             const struct solid *solid, const struct row_span *span)
+{
+    const pia_plot_options *plot = &request->options;
+    pia_page_options page;
+    pia_page_options_init(&page);
+    page.title = plot->title;
+    page.source = request->source.path ? request->source.path : request->model;
+    page.command = request->command;
+    page.parameters = plot->parameters;
+    page.trace = plot->trace;
+    page.trace_count = plot->trace_count;
+    pia_index *rows = session_keep(request->session, (size_t)solid->count, sizeof *rows);
+    for (pia_index i = 0; i < solid->count; i++) rows[i] = row_in_file(span, solid->row ? solid->row[i] : i);
+    page.rows = rows;
+    return pia_page_write(request->session->context, path, models, count, solid->points, solid->count, &page);
+}
+
 /* The models and points of one part, or all of them. */
 static int draw(struct request *request, const struct model_set *set, const struct point_set *points)
 {
@@ -152,22 +173,26 @@ static int draw(struct request *request, const struct model_set *set, const stru
     }
     if (code) return code;
     struct solid solid = {.count = 0};
+    struct row_span span = {.count = 0};
     if (request->source.path) {
+        span = points_span(points, part);
         struct point_set shown = points_of_part(points, part);
         solid = points_without_holes(session, &shown.info, count == 1 ? stored_parameters(session, models[0], &shown.info) : NULL);
         request->options.parameters = solid.parameters;
     }
     for (pia_index i = 0; !code && i < request->outputs.count; i++) {
         const char *path = request->outputs.item[i];
-        code =
-            session_check(session, pia_plot(session->context, path, models, count, solid.points, solid.count, &request->options), path);
+        pia_status status = is_page(path, request->options.format)
+                                ? write_page(request, path, models, count, &solid, &span)
+                                : pia_plot(session->context, path, models, count, solid.points, solid.count, &request->options);
+        code = session_check(session, status, path);
     }
     return code;
 }
 
 int cmd_plot(struct session *session, int argc, char **argv)
 {
-    struct request request = {.session = session};
+    struct request request = {.session = session, .command = command_line(session, "plot", argc, argv)};
     struct model_set models = {0};
     struct point_set points = {0};
     point_source_init(&request.source, session);

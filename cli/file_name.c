@@ -32,6 +32,11 @@ int is_picture(const char *path, const char *format)
     return 0;
 }
 
+int is_page(const char *path, const char *format)
+{
+    return strcasecmp(format ? format : extension_of(path), "html") == 0;
+}
+
 const char *output_at_level(struct session *session, const char *path, const char *level)
 {
     const char *extension = extension_of(path);

@@ -24,8 +24,7 @@ static const pia_index *name_rows(struct fit_job *job, pia_index count)
     return rows;
 }
 
-/* Points that conditions fix: rows, and values at parameters. Those of the first part; others have marks of their own in no file yet.
- */
+/* Points that conditions fix: rows, and values at parameters, of the first part. */
 static void gather_conditions(struct fit_job *job, int dim, pia_page_options *page)
 {
     const pia_fit_options *options = &job->result[0].options;

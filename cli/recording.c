@@ -67,11 +67,12 @@ static pia_status copy_unsupported(struct recording *recording, struct session *
 pia_status recording_look(struct recording *recording, struct session *session, pia_fit *fit, const pia_report *report)
 {
     pia_model *model = NULL;
-    if (recording->row_count && recording->row[recording->row_count - 1].iteration == report->iterations) return PIA_OK;
-    pia_status status = pia_fit_model(fit, &model);
-    if (status != PIA_OK) return status;
+    pia_status status = report->stop != PIA_STOP_NONE ? copy_unsupported(recording, session, fit) : PIA_OK;
+    int known = recording->row_count && recording->row[recording->row_count - 1].iteration == report->iterations;
+    if (status == PIA_OK && !known) status = pia_fit_model(fit, &model);
+    if (status != PIA_OK || known) return status;
     if (recording->frame_count == RECORDED_FRAMES) thin(recording);
     recording->frame[recording->frame_count++] = model;
     add_row(recording, session, report);
-    return report->stop != PIA_STOP_NONE ? copy_unsupported(recording, session, fit) : PIA_OK;
+    return PIA_OK;
 }
