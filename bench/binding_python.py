@@ -1,4 +1,4 @@
-"""binding_python.py BUILD [COUNT]: the same fit from C and from Python on a NumPy array, in turns; the ratio of the medians.
+"""binding_python.py BUILD [COUNT]: the same fit from C and from Python on a NumPy array, in turns; the median of the ratios.
 Then what a short call costs, and resident memory over many fits."""
 
 import resource
@@ -30,11 +30,11 @@ def best_of_three():
 
 
 c, python = [], []
-for _ in range(5):
+for _ in range(9):
     line = subprocess.run([f"{build}/bench/bench_binding", str(count), str(CONTROL)], capture_output=True, text=True, check=True).stdout
     c.append(float(line.split()[0]))
     python.append(best_of_three())
-ratio = statistics.median(python) / statistics.median(c)
+ratio = statistics.median(p / q for p, q in zip(python, c))
 print(f"{count} points: C {statistics.median(c):.4f} s, Python {statistics.median(python):.4f} s, ratio {ratio:.3f}")
 
 few = points[:20].copy()

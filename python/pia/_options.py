@@ -60,6 +60,8 @@ def settings(name):
     return [Setting(*row) for row in _pia.settings(name)]
 
 
+_names = frozenset(option.name for option in options())
+
 #: Options that go by another name, or by more than one form, in Python.
 _renamed = {"measure_distance": "measure", "parametrization": "parameters", "placement": "knots"}
 
@@ -120,7 +122,7 @@ class Arguments:
         for name in ("interpolate", "corners"):
             if name in given:
                 given[name] = _rows(given[name], count, name)
-        unknown = given.keys() - {option.name for option in options()}
+        unknown = given.keys() - _names
         if unknown:
             raise TypeError(_unknown(sorted(unknown)[0]))
         self.options = given

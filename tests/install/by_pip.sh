@@ -14,6 +14,8 @@ CMAKE_ARGS="-G Ninja -DPIA_PYTHON_INSTALLED=ON -DCMAKE_PREFIX_PATH=$package/move
 ls "$tree"/libpia-*-cp311-abi3-linux_*.whl
 "$tree/V/bin/pip" install --no-index "$tree"/libpia-*.whl
 cd "$tree/V"
+# What memory does over many fits and at its end is tested here, where no sanitizer counts.
+PIA_DATA=$source/data PIA_SOURCE=$source bin/python "$source/tests/python/test_memory.py"
 bin/python - <<'END'
 import glob, pathlib, pia, subprocess
 folder = pathlib.Path(pia.__file__).parent
