@@ -88,15 +88,25 @@ void add_edge(const TopoDS_Edge &edge, const TopoDS_Face &face, const Domain &do
     }
 }
 
-// Curves in the parameter plane end on the border up to the file's tolerance.
-void put_on_border(Loop &loop, const Domain &domain)
+// Whether the way from a over b to c goes back along itself.
+bool turns_back(const double *a, const double *b, const double *c)
 {
-    for (size_t i = 0; i < loop.size(); i++) {
-        int d = i % 2;
-        double low = domain.low[d], high = low + domain.size[d], near = 1e-6 * domain.size[d];
-        if (std::fabs(loop[i] - low) <= near) loop[i] = low;
-        if (std::fabs(loop[i] - high) <= near) loop[i] = high;
+    double ab[2] = {b[0] - a[0], b[1] - a[1]}, bc[2] = {c[0] - b[0], c[1] - b[1]};
+    return ab[0] * bc[1] - ab[1] * bc[0] == 0 && ab[0] * bc[0] + ab[1] * bc[1] <= 0;
+}
+
+// Spikes are taken away from their tips on: what moved onto the border may run there and back.
+Loop without_spikes(const Loop &loop)
+{
+    Loop kept;
+    for (size_t i = 0; i < loop.size(); i += 2) {
+        kept.insert(kept.end(), {loop[i], loop[i + 1]});
+        for (size_t n = kept.size(); n >= 6 && turns_back(&kept[n - 6], &kept[n - 4], &kept[n - 2]); n = kept.size())
+            kept.erase(kept.end() - 4, kept.end() - 2);
     }
+    while (kept.size() >= 6 && turns_back(&kept[kept.size() - 4], &kept[kept.size() - 2], &kept[0])) kept.resize(kept.size() - 2);
+    while (kept.size() >= 6 && turns_back(&kept[kept.size() - 2], &kept[0], &kept[2])) kept.erase(kept.begin(), kept.begin() + 2);
+    return kept;
 }
 
 } // namespace
@@ -111,9 +121,22 @@ std::vector<Loop> loops_of(const TopoDS_Face &oriented, const Handle(Geom_BSplin
         TopoDS_Wire wire = TopoDS::Wire(w.Current());
         Loop loop;
         for (BRepTools_WireExplorer e(wire, face); e.More(); e.Next()) add_edge(e.Current(), face, domain, loop);
-        put_on_border(loop, domain);
         if (loop.size() < 6) continue;
         loops.insert(wire.IsSame(outer) ? loops.begin() : loops.end(), loop);
     }
     return loops;
+}
+
+void put_on_border(std::vector<Loop> &loops, const Handle(Geom_BSplineSurface) & surface)
+{
+    Domain domain = domain_of(surface);
+    for (Loop &loop : loops) {
+        for (size_t i = 0; i < loop.size(); i++) {
+            int d = i % 2;
+            double low = domain.low[d], high = low + domain.size[d], near = 1e-6 * domain.size[d];
+            if (loop[i] <= low + near) loop[i] = low;
+            if (loop[i] >= high - near) loop[i] = high;
+        }
+        loop = without_spikes(loop);
+    }
 }

@@ -23,8 +23,11 @@ TopoDS_Shape read_shape(const std::string &format, const char *path);
 Handle(Geom_BSplineSurface) surface_of(const TopoDS_Face &face, std::vector<Loop> &loops);
 // The stretch of a curve that an edge is, clamped and not periodic. Null for edges without length.
 Handle(Geom_BSplineCurve) curve_of(const TopoDS_Edge &edge);
-// The wires of a face over its (clamped) surface, the outer one first.
+// The wires of a face on this surface, the outer one first, as the file has them: on a periodic surface in any turn.
 std::vector<Loop> loops_of(const TopoDS_Face &face, const Handle(Geom_BSplineSurface) & surface);
+// No face leaves the domain of its surface; its curves in the parameter plane may, by what the file or a conversion is off. They then
+// end on the border, exactly.
+void put_on_border(std::vector<Loop> &loops, const Handle(Geom_BSplineSurface) & surface);
 
 // Records (see occt_records.h). They throw std::runtime_error when nobody listens.
 void send_surface(const Handle(Geom_BSplineSurface) & surface, const std::vector<Loop> &loops);
