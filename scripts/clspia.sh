@@ -30,55 +30,56 @@ at() {
 
 # told KEY NAME: a number of the report; short KEY NAME: three digits of it.
 told() {
-    tr ',{}' '\n\n\n' <"$work/$2.report.json" | sed -n "s/^ *\"$1\": *//p" | head -1
+    tr ',{}' '[\n*]' <"$work/$2.report.json" | sed -n "s/^ *\"$1\": *//p" | head -1
 }
 short() {
     told "$1" "$2" | awk '{ printf "%.3g", $1 }'
 }
 
 # Figs. 8 and 14, Table 1: six curves and two surfaces, the largest of the constraints' errors.
-box() { awk -v box="$2" -f "$here/box.awk" "$1" "$1"; }
-curve_1="$data/airfoil/sc20714.dat --control 30 --interpolate every:20"
-curve_2="$data/airfoil/rae2822.dat --control 25 --interpolate every:16"
-curve_3="$data/series/ecg208_30s.csv --fit-function --control 300 --interpolate every:270"
-curve_4="$data/coast/greatbritain_wdb2.csv --closed --control 200 --interpolate every:600"
-curve_5="$data/glyph/dejavuserif_S_scan269.csv --columns x,y --closed --control 40 --interpolate every:27"
-curve_6="$data/curve3d/tum_fr2_desk.csv --control 150 --interpolate every:700"
-surface_1="$data/scan/owl_face_101x101.csv --grid 101x101 --control 13,13 --interpolate every:171"
-surface_2="$data/scan/blackvase_61x205.csv --grid 61x205 --closed=v --control 35,30 --interpolate every:209"
 {
     echo '## Errors of the constraints against iterations'
     echo
     echo '| data | points | control points | met | recipe: 1 | 10 | 50 | 100 | iterations to 1e-10 | `clspia` | `clspia-pcg` |'
     echo '| --- | ---: | ---: | ---: | ---: | ---: | ---: | ---: | ---: | ---: | ---: |'
 } >"$tables"
-curve_traces='' surface_traces=''
-for name in curve_1 curve_2 curve_3 curve_4 curve_5 curve_6 surface_1 surface_2; do
-    eval "words=\$$name"
+number=0
+: >"$work/curve.traces"
+: >"$work/surface.traces"
+while read -r kind file options; do
+    number=$((number + 1))
+    name=$kind$number
     # shellcheck disable=SC2086
     {
-        fit "${name}_recipe" $words --method clspia --method-option recipe=paper --stop-gradient 1e-10 --iterations 100000
-        fit "${name}_clspia" $words --method clspia --stop-gradient 1e-10 --iterations 100000
-        fit "${name}_pcg" $words --method clspia-pcg --stop-gradient 1e-10
+        fit "${name}_recipe" "$data/$file" $options --method clspia --method-option recipe=paper --stop-gradient 1e-10 --iterations 100000
+        fit "${name}_clspia" "$data/$file" $options --method clspia --stop-gradient 1e-10 --iterations 100000
+        fit "${name}_pcg" "$data/$file" $options --method clspia-pcg --stop-gradient 1e-10
     }
-    set -- $words
-    file=$(basename "$1")
-    eval "${name%_*}_traces=\"\$${name%_*}_traces ${file%.*}=$work/${name}_recipe.csv\""
-    every=$(echo "$words" | sed 's/.*every:\([0-9]*\).*/\1/')
+    file=$(basename "$file")
+    echo "${file%.*}=$work/${name}_recipe.csv" >>"$work/$kind.traces"
+    every=${options##*every:}
     points=$(told point_count "${name}_pcg")
     echo "| $file | $points | $(told control_count "${name}_pcg") | $(((points + every - 1) / every)) |" \
         "$(at 1 6 "${name}_recipe") | $(at 10 6 "${name}_recipe") | $(at 50 6 "${name}_recipe") | $(at 100 6 "${name}_recipe") |" \
         "$(told iterations "${name}_recipe") | $(told iterations "${name}_clspia") | $(told iterations "${name}_pcg") |" >>"$tables"
-done
+done <<END
+curve airfoil/sc20714.dat --control 30 --interpolate every:20
+curve airfoil/rae2822.dat --control 25 --interpolate every:16
+curve series/ecg208_30s.csv --fit-function --control 300 --interpolate every:270
+curve coast/greatbritain_wdb2.csv --closed --control 200 --interpolate every:600
+curve glyph/dejavuserif_S_scan269.csv --columns x,y --closed --control 40 --interpolate every:27
+curve curve3d/tum_fr2_desk.csv --control 150 --interpolate every:700
+surface scan/owl_face_101x101.csv --grid 101x101 --control 13,13 --interpolate every:171
+surface scan/blackvase_61x205.csv --grid 61x205 --closed=v --control 35,30 --interpolate every:209
+END
 for kind in curve surface; do
-    eval "traces=\$${kind}_traces"
-    # shellcheck disable=SC2086,SC2154
-    awk -v column=6 -v heading="largest error of the constraints, recipe=paper" -f "$here/chart.awk" $traces >"$out/errors-${kind}s.svg"
+    # shellcheck disable=SC2046
+    awk -v column=6 -v heading='largest error of the constraints, recipe=paper' -f "$here/chart.awk" $(cat "$work/$kind.traces") >"$out/errors-${kind}s.svg"
 done
 
 # Figs. 12 and 13: the two surfaces, beside their points.
-draw surface-1.png surface_1_pcg "$data/scan/owl_face_101x101.csv" --grid 101x101 --no-control --size 640x560
-draw surface-2.png surface_2_pcg "$data/scan/blackvase_61x205.csv" --grid 61x205 --no-control --size 640x560
+draw surface-1.png surface7_pcg "$data/scan/owl_face_101x101.csv" --grid 101x101 --no-control --size 640x560
+draw surface-2.png surface8_pcg "$data/scan/blackvase_61x205.csv" --grid 61x205 --no-control --size 640x560
 
 # Fig. 10: control points, then constraints added progressively.
 outline=$data/coast/contour_volcano_150m.csv
