@@ -54,6 +54,7 @@ int output_check(const char *path)
     int length = (int)(base_of(path) - path);
     int fits = snprintf(folder, sizeof folder, "%.*s", length ? length : 1, length ? path : ".") < (int)sizeof folder;
     if (!fits || access(folder, W_OK | X_OK) != 0)
-        return fail(EXIT_FILE, "%s: cannot be written in its folder: %s", path, fits ? strerror(errno) : "name too long");
+        return fail(EXIT_FILE, "%s: cannot be written in its folder: %s; choose another", path,
+                    fits ? strerror(errno) : "name too long");
     return EXIT_DONE;
 }

@@ -68,6 +68,7 @@ int main(int argc, char **argv)
     int code = run_command(&session, argc, argv);
     if (code < 0) code = EXIT_DONE;
     session_close(&session);
-    if (fflush(stdout) != 0 || ferror(stdout)) code = fail(EXIT_FILE, "standard output: %s", strerror(errno));
+    if (fflush(stdout) != 0 || ferror(stdout))
+        code = fail(EXIT_FILE, "standard output: %s; make room or write elsewhere", strerror(errno));
     return code;
 }

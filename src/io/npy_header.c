@@ -88,7 +88,8 @@ static pia_status scan_dictionary(pia_context *context, const pia_input *input, 
             found |= 2;
         } else if (strcmp(key, "shape") == 0 && (found & 4) == 0) {
             if (!scan_shape(&s, header))
-                return pia_input_fail(context, input, NULL, "its shape is not one to three counts; reshape it");
+                return pia_input_fail(context, input, NULL,
+                                      "its shape is not one to three counts of at most 64 bits; reshape it or write it again");
             found |= 4;
         } else {
             break;
