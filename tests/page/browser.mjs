@@ -26,6 +26,7 @@ export class Browser {
     async report(file, {width = 520, height = 720, dark = false, hash = ''} = {}) {
         const context = await this.process.newContext({viewport: {width, height}, colorScheme: dark ? 'dark' : 'light', reducedMotion: 'reduce'});
         const page = await context.newPage(), name = file.split('/').pop();
+        page.setDefaultTimeout(120000); // machines under load
         page.on('pageerror', error => this.fail(`${name}: ${error.stack}`));
         page.on('console', message => { if (message.type() === 'error') this.fail(`${name}: console: ${message.text()}`); });
         page.on('request', request => { if (!/^(file|data|blob):/.test(request.url())) this.fail(`${name}: asks for ${request.url()}`); });

@@ -40,8 +40,9 @@ function summary(model) {
 
 function theme(state) {
     const button = byId('theme'), names = {auto: 'Theme: as the system', light: 'Theme: light', dark: 'Theme: dark'}, next = {auto: 'light', light: 'dark', dark: 'auto'};
-    const update = () => {
+    const update = event => {
         const {theme} = state.values;
+        if (event?.source === 'replay') return;
         button.textContent = names[theme] ?? names.auto;
         if (theme === 'auto') delete document.documentElement.dataset.theme;
         else document.documentElement.dataset.theme = theme;
@@ -164,7 +165,8 @@ async function start() {
     if (shown) {
         controls(model, state, byId('controls'), shown);
         legend(model, state, byId('legend'), shown);
-        shown.replay = replay(model, state, byId('replay'), at => model.figures.length === 1 && chart?.mark(at.iteration, at.maxError));
+        shown.replay = replay(model, state, byId('replay'), at => model.figures.length === 1 && chart?.mark(at.iteration, at.maxError),
+            pace => { shown.view.keepPace(pace); shown.redraw(); });
     }
     document.documentElement.dataset.ready = Math.round(performance.now());
 }

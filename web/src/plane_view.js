@@ -83,6 +83,8 @@ export class PlaneView {
         this.move(dx, dy);
     }
 
+    keepPace() {}
+
     /** Index of the point shown nearest to a spot, -1 when none is near. */
     pick(x, y, reach = 18) {
         const {data} = this.model;

@@ -4,7 +4,8 @@ import {count, number} from './format.js';
 
 const FRAMES_A_SECOND = 4; // of the fit; the screen shows the blends between them
 
-export function replay(model, state, element, onFrame) {
+/** onFrame is told each frame that is shown, onPace the milliseconds between them while it plays, and null when it stops. */
+export function replay(model, state, element, onFrame, onPace) {
     if (model.frameCount < 2) return null;
     const end = model.frameCount - 1, {frames} = model.figures.find(f => f.frames.length === model.frameCount);
     element.hidden = false;
@@ -34,11 +35,13 @@ export function replay(model, state, element, onFrame) {
     }
     function stop() {
         playing = false;
+        onPace(null);
         face();
     }
     function step(now) {
         if (!playing) return;
         const passed = before ? Math.min(0.1, (now - before) / 1000) : 0, next = state.frame() + passed * FRAMES_A_SECOND;
+        if (before) onPace(now - before);
         before = now;
         show(Math.min(end, next));
         if (next >= end) stop();

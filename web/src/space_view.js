@@ -15,7 +15,7 @@ import {cornersOf} from './plane_view.js';
 
 ColorManagement.enabled = false; // colours are written as they are to be seen
 
-const FINE = 200, MOST_FINE = 256, FIELD = 28, LINE_STEPS = 160, MOST_LINES = 90;
+const FINE = 200, MOST_FINE = 256, FIELD = 28, LINE_STEPS = 160, MOST_LINES = 90, SLOW = 36;
 const HOME = {azimuth: -55, elevation: 32, distance: 1};
 
 export class SpaceView {
@@ -491,6 +491,12 @@ export class SpaceView {
         this.renderer.setPixelRatio(Math.min(2, devicePixelRatio || 1));
         this.renderer.setSize(width, height);
         this.eye.aspect = width / height;
+    }
+
+    /** Slow machines draw fewer pixels while a replay plays. pace: milliseconds between its frames; null: at rest. */
+    keepPace(pace) {
+        const now = this.renderer.getPixelRatio(), wanted = pace === null ? Math.min(2, devicePixelRatio || 1) : pace > SLOW ? Math.max(0.5, 0.8 * now) : now;
+        if (wanted !== now) this.renderer.setPixelRatio(wanted);
     }
 
     spot(at) {
