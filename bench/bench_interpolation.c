@@ -19,7 +19,7 @@
 #include <time.h>
 #include <unistd.h>
 
-enum { REPEATS = 5 };
+enum { REPEATS = 6 }; /* the first one makes the memory known to the machine */
 
 static double seconds(void)
 {
