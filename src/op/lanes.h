@@ -105,4 +105,38 @@ PIA_INLINE void pia_lanes_row(const pia_collocation *c, const pia_index *row, co
     pia_lanes_basis(knot, degree, pia_lanes_load(c->parameters, row), value);
 }
 
+/* The same for PIA_LANES rows from `row` on spans one after the other from `span` on, which they mostly lie on where there are as many
+ * knots as rows: nothing is gathered. Returns 0 where they do not. */
+PIA_INLINE int pia_lanes_neighbours(const pia_collocation *c, pia_index row, pia_index span, int degree, pia_lanes *value)
+{
+    if (c->values != NULL || span + PIA_LANES > c->last) return 0;
+    pia_lanes t = pia_vector_load(c->parameters + row), knot[2 * PIA_MAX_DEGREE];
+    if (!pia_lanes_all((pia_vector_load(c->knots + span) <= t) & (t < pia_vector_load(c->knots + span + 1)))) return 0;
+    for (int k = 0; k < 2 * degree; k++) knot[k] = pia_vector_load(c->knots + span - degree + 1 + k);
+    pia_lanes_basis(knot, degree, t, value);
+    return 1;
+}
+
+/* Rows of dim numbers, one after the other, fill dim vectors; dim <= 3. Vector `part` of a number each row, repeated for its
+ * components. */
+PIA_INLINE pia_lanes pia_lanes_spread(pia_lanes each, int dim, int part)
+{
+    if (dim == 1) return each;
+    if (dim == 2) return part == 0 ? __builtin_shufflevector(each, each, 0, 0, 1, 1) : __builtin_shufflevector(each, each, 2, 2, 3, 3);
+    if (part == 0) return __builtin_shufflevector(each, each, 0, 0, 0, 1);
+    return part == 1 ? __builtin_shufflevector(each, each, 1, 1, 2, 2) : __builtin_shufflevector(each, each, 2, 3, 3, 3);
+}
+
+/* The sum over the components of each row. */
+PIA_INLINE pia_lanes pia_lanes_row_sums(const pia_lanes *part, int dim)
+{
+    if (dim == 1) return part[0];
+    if (dim == 2) return __builtin_shufflevector(part[0], part[1], 0, 2, 4, 6) + __builtin_shufflevector(part[0], part[1], 1, 3, 5, 7);
+    pia_lanes first = __builtin_shufflevector(__builtin_shufflevector(part[0], part[1], 0, 1, 6, 3), part[2], 0, 5, 2, 3);
+    pia_lanes second = __builtin_shufflevector(__builtin_shufflevector(part[0], part[1], 4, 1, 2, 7), part[2], 0, 1, 6, 3);
+    pia_lanes third = __builtin_shufflevector(__builtin_shufflevector(part[0], part[1], 0, 5, 2, 3), part[2], 4, 1, 2, 7);
+    return __builtin_shufflevector(first, first, 0, 3, 2, 1) + __builtin_shufflevector(second, second, 1, 0, 3, 2) +
+           __builtin_shufflevector(third, third, 2, 1, 0, 3);
+}
+
 #endif

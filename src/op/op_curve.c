@@ -119,6 +119,46 @@ PIA_INLINE void residual_rows(const pass *p, const rows *r, output kind, int deg
     count_square(p->weights, r, square, e);
 }
 
+/* Squares without weights, lane by lane. */
+typedef struct tally {
+    pia_lanes sum, worst;
+    pia_lane_masks row; /* of the worst */
+} tally;
+
+static void tally_close(const tally *t, pia_run_errors *e)
+{
+    for (int l = 0; l < PIA_LANES; l++) {
+        e->sum_squares += t->sum[l];
+        e->weighted += t->sum[l];
+        if (t->worst[l] > e->worst || (t->worst[l] == e->worst && t->row[l] < e->index)) {
+            e->worst = t->worst[l];
+            e->index = t->row[l];
+        }
+    }
+}
+
+/* PIA_LANES rows on neighbouring spans, whose numbers are all neighbours. */
+PIA_INLINE void residual_neighbours(const pass *p, pia_index row, pia_index column, const pia_lanes *value, const pia_lanes *origin,
+                                    output kind, int degree, int dim, tally *t)
+{
+    pia_lanes square[PIA_MAX_DIM];
+    for (int part = 0; part < dim; part++) {
+        pia_index at = row * dim + part * PIA_LANES;
+        const double *x = p->full + column * dim + part * PIA_LANES;
+        pia_lanes sum = pia_lanes_spread(value[0], dim, part) * pia_vector_load(x);
+        for (int k = 1; k <= degree; k++) sum += pia_lanes_spread(value[k], dim, part) * pia_vector_load(x + k * dim);
+        pia_lanes difference = pia_vector_load(p->targets->points + at) - origin[part] - sum;
+        square[part] = difference * difference;
+        if (kind == MOVED) difference = pia_vector_load(p->base + at) + p->factor * difference;
+        if (kind != NOTHING) pia_lanes_write(difference, p->out + at);
+    }
+    pia_lanes all = pia_lanes_row_sums(square, dim);
+    pia_lane_masks larger = all > t->worst;
+    t->sum += all;
+    t->worst = pia_lanes_choose(larger, all, t->worst);
+    t->row = (larger & (row + (pia_lane_masks){0, 1, 2, 3})) | (~larger & t->row);
+}
+
 PIA_INLINE void residual_range(const pass *given, pia_index row, pia_index to, output kind, int degree, int dim, pia_run_errors *e)
 {
     if (row >= to) return;
@@ -128,11 +168,21 @@ PIA_INLINE void residual_range(const pass *given, pia_index row, pia_index to, o
     pass copy = *given, *p = &copy;
     copy.targets = &targets;
     pia_index span = pia_collocation_span(c, row);
+    tally t = {.worst = {-1, -1, -1, -1}};
+    pia_lanes origin[PIA_MAX_DIM] = {{0}};
     rows r;
+    for (int k = 0; k < dim * PIA_LANES; k++) origin[k / PIA_LANES][k % PIA_LANES] = targets.origin[k % dim];
     for (; row + PIA_LANES <= to; row += PIA_LANES) {
-        span = load_rows(c, row, PIA_LANES, span, degree, &r);
-        residual_rows(p, &r, kind, degree, dim, e);
+        span = pia_collocation_advance(c, row, span);
+        if (dim <= 3 && p->weights == NULL && pia_lanes_neighbours(c, row, span, degree, r.value)) {
+            residual_neighbours(p, row, span - degree, r.value, origin, kind, degree, dim, &t);
+            span += PIA_LANES - 1;
+        } else {
+            span = load_rows(c, row, PIA_LANES, span, degree, &r);
+            residual_rows(p, &r, kind, degree, dim, e);
+        }
     }
+    tally_close(&t, e);
     if (row < to) {
         load_rows(c, row, (int)(to - row), span, degree, &r);
         residual_rows(p, &r, kind, degree, dim, e);
