@@ -1,5 +1,7 @@
 #include "constraint_file.h"
 
+#include "join_file.h"
+
 #include <errno.h>
 #include <jansson.h>
 #include <math.h>
@@ -98,31 +100,49 @@ static int read_constraint(const struct reading *reading, json_t *item, pia_cons
     return code;
 }
 
-static int read_list(struct reading *reading, const json_t *list, const pia_constraint **out, pia_index *count)
+static int read_entry(struct reading *reading, json_t *item, struct constraint_file *out)
+{
+    if (json_object_get(item, "join")) {
+        const char *place = session_text(reading->session, "%s: constraint %zu", reading->path, reading->index);
+        pia_index next = out->join_count++;
+        return join_file_read(reading->session, place, item, &out->neighbour[next], &out->join[next]);
+    }
+    int skip = 0, code = read_constraint(reading, item, &out->constraint[out->constraint_count], &skip);
+    if (!skip) out->constraint_count++;
+    return code;
+}
+
+static int read_list(struct reading *reading, const json_t *list, struct constraint_file *out)
 {
     if (!json_is_array(list)) return fail(EXIT_DATA, "%s: must hold a list [...] of constraints", reading->path);
-    pia_constraint *constraints = session_keep(reading->session, json_array_size(list), sizeof *constraints);
-    *count = 0;
-    for (reading->index = 0; reading->index < json_array_size(list); reading->index++) {
-        int skip = 0, code = read_constraint(reading, json_array_get(list, reading->index), &constraints[*count], &skip);
+    size_t count = json_array_size(list);
+    out->constraint = session_keep(reading->session, count, sizeof *out->constraint);
+    out->join = session_keep(reading->session, count, sizeof *out->join);
+    out->neighbour = session_keep(reading->session, count, sizeof *out->neighbour);
+    for (reading->index = 0; reading->index < count; reading->index++) {
+        int code = read_entry(reading, json_array_get(list, reading->index), out);
         if (code) return code;
-        if (!skip) ++*count;
     }
-    *out = constraints;
     return EXIT_DONE;
 }
 
-int constraint_file_read(struct session *session, const char *path, const struct row_span *span, int dim, const pia_constraint **out,
-                         pia_index *count)
+int constraint_file_read(struct session *session, const char *path, const struct row_span *span, int dim, struct constraint_file *out)
 {
     json_error_t error;
     struct reading reading = {.session = session, .path = path, .span = span, .dim = dim};
+    *out = (struct constraint_file){.join_count = 0};
     FILE *stream = strcmp(path, "-") == 0 ? stdin : fopen(path, "r");
     if (!stream) return fail(EXIT_FILE, "%s: %s; check the name", path, strerror(errno));
     json_t *list = json_loadf(stream, JSON_REJECT_DUPLICATES, &error);
     if (stream != stdin) fclose(stream);
     if (!list) return fail(EXIT_DATA, "%s:%d: %s; correct the JSON", path, error.line, error.text);
-    int code = read_list(&reading, list, out, count);
+    int code = read_list(&reading, list, out);
     json_decref(list);
     return code;
+}
+
+void constraint_file_close(struct constraint_file *file)
+{
+    for (pia_index i = 0; i < file->join_count; i++) models_close(&file->neighbour[i]);
+    file->join_count = 0;
 }

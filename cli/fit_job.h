@@ -4,6 +4,7 @@
 #ifndef PIA_CLI_FIT_JOB_H
 #define PIA_CLI_FIT_JOB_H
 
+#include "constraint_file.h"
 #include "number_file.h"
 #include "point_source.h"
 #include "progress.h"
@@ -33,13 +34,14 @@ struct fit_request {
     const char *command; /* the command line, as a shell takes it */
 };
 
-/* What one part of the file is fitted with; arrays are kept by the session, `start` is released by fit_task_close. */
+/* What one part of the file is fitted with; arrays are kept by the session, models are released by fit_task_close. */
 struct fit_task {
     struct row_span span;
     pia_data data;
     pia_fit_options options;
     pia_model **start;
     pia_index start_count;
+    struct constraint_file constraints;
 };
 
 /* One fit, and its models at each level (one level when none were asked). */

@@ -1,6 +1,5 @@
 #include <string.h>
 
-#include "constraint_file.h"
 #include "fit_job.h"
 #include "registry.h"
 
@@ -169,8 +168,11 @@ static int fill_conditions(struct fit_job *job, struct fit_task *task)
     options->interpolate = list.item;
     options->interpolate_count = list.count;
     if (!code && request->constraints)
-        code = constraint_file_read(session, request->constraints, &task->span, task->data.dim, &options->constraints,
-                                    &options->constraint_count);
+        code = constraint_file_read(session, request->constraints, &task->span, task->data.dim, &task->constraints);
+    options->constraints = task->constraints.constraint;
+    options->constraint_count = task->constraints.constraint_count;
+    options->joins = task->constraints.join;
+    options->join_count = task->constraints.join_count;
     if (code || !request->corners) return code;
     if (strcmp(request->corners, "auto") == 0 || strcmp(request->corners, "none") == 0) {
         options->corner_count = strcmp(request->corners, "auto") == 0 ? PIA_AUTO : 0;
@@ -249,6 +251,7 @@ int fit_task_open(struct fit_job *job, pia_index part, struct fit_task *out)
 
 void fit_task_close(struct fit_task *task)
 {
+    constraint_file_close(&task->constraints);
     pia_models_destroy(task->start, task->start_count);
     task->start = NULL;
     task->start_count = 0;

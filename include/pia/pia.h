@@ -164,6 +164,26 @@ typedef struct pia_constraint {
 /* Zeroes, at_point = PIA_AUTO. */
 void pia_constraint_init(pia_constraint *constraint);
 
+/* An end of a curve (the first two) or an edge of a surface. */
+typedef enum pia_edge { PIA_EDGE_U_START, PIA_EDGE_U_END, PIA_EDGE_V_START, PIA_EDGE_V_END } pia_edge;
+
+/* How a model goes on from another: with the same points; also with the direction, or the whole vector, of the derivative across the
+ * edge, each in its own parameter. */
+typedef enum pia_continuity { PIA_CONTINUITY_C0, PIA_CONTINUITY_G1, PIA_CONTINUITY_C1 } pia_continuity;
+
+/* Continuation of a neighbouring model of the same kind and dimension. Along the edge of a surface the conditions stand at the Greville
+ * abscissas of its control points: the edges agree everywhere when the knots along them are alike, at those places otherwise. */
+typedef struct pia_join {
+    size_t struct_size;
+    const pia_model *neighbour;    /* borrowed for the call */
+    pia_edge edge, neighbour_edge; /* of what is fitted, and of the neighbour: open directions */
+    int reversed;                  /* 1: the parameters along the two edges run against each other */
+    pia_continuity continuity;
+} pia_join;
+
+/* The start of what is fitted goes on from the end of the neighbour: PIA_EDGE_U_START, PIA_EDGE_U_END, G1; no neighbour. */
+void pia_join_init(pia_join *join);
+
 /* State of a fit: cheap to read at any time. Counts and errors are those of the current model. */
 typedef struct pia_report {
     size_t struct_size;
@@ -217,6 +237,8 @@ typedef struct pia_fit_options {
     pia_index interpolate_count;
     const pia_constraint *constraints;
     pia_index constraint_count;
+    const pia_join *joins;
+    pia_index join_count;
     double soft;             /* > 0: constraints become least-squares rows of this weight; 0: hard */
     const pia_index *freeze; /* control points that stay, row-major index */
     pia_index freeze_count;
@@ -323,6 +345,8 @@ pia_status pia_fit_add_points(pia_fit *fit, const pia_data *more);
 pia_status pia_fit_freeze(pia_fit *fit, const pia_index *control, pia_index count, int frozen);
 /* Adds interpolation constraints; ids count up from *first_id (NULL allowed). Methods that know constraints only. */
 pia_status pia_fit_constrain(pia_fit *fit, const pia_constraint *constraints, pia_index count, pia_index *first_id);
+/* Adds the constraints of a join, of ids *first_id .. *first_id + *count - 1 (NULL allowed). */
+pia_status pia_fit_join(pia_fit *fit, const pia_join *join, pia_index *first_id, pia_index *count);
 /* Drops the constraint of this id. */
 pia_status pia_fit_release(pia_fit *fit, pia_index constraint_id);
 /* Inserts a knot; the current model keeps its shape. Least-squares methods only. direction 0 is u. */

@@ -56,7 +56,7 @@ static int wants_least_squares(const pia_fit *fit)
         if (o->knots[d] != NULL && o->knot_count[d] != count + o->degree[d] + 1) fewer = 1;
     }
     return fewer || fit->refining || fit->kind == PIA_SCATTERED || fit->has_holes || fit->weights != NULL || o->robust != NULL ||
-           o->fairing > 0 || o->interpolate_count > 0 || o->constraint_count > 0;
+           o->fairing > 0 || o->interpolate_count > 0 || o->constraint_count > 0 || o->join_count > 0;
 }
 
 /* A tolerance without control points, knots or a start asks for the knots as well; interpolating methods only stop at it. */
@@ -99,7 +99,7 @@ static const char *automatic(pia_fit *fit)
 {
     const pia_fit_options *o = &fit->options;
     int limited = o->limiter != NULL && strcmp(o->limiter, "none") != 0;
-    int constrained = o->interpolate_count + o->constraint_count > 0;
+    int constrained = o->interpolate_count + o->constraint_count + o->join_count > 0;
     if (!wants_least_squares(fit)) {
         pia_fit_note_add(fit,
                          limited ? "method: pia, because the limiter %s shortens its steps"
@@ -174,7 +174,8 @@ static pia_status choose_method(pia_fit *fit)
         pia_status status = check_refining(fit);
         if (status != PIA_OK) return status;
     }
-    pia_index beyond = fit->options.constraint_count + ((needs & PIA_NEEDS_GROUPS) != 0 ? 0 : fit->options.interpolate_count);
+    pia_index beyond = fit->options.constraint_count + fit->options.join_count +
+                       ((needs & PIA_NEEDS_GROUPS) != 0 ? 0 : fit->options.interpolate_count);
     if (beyond > 0 && (needs & PIA_KNOWS_CONSTRAINTS) == 0)
         return pia_fail(fit->context, PIA_E_ARGUMENT, "method %s knows no constraints; use clspia, clspia-pcg or direct", name);
     if (fit->square && fit->weights != NULL) pia_fit_note_add(fit, "weights do not change an interpolation and were not used");

@@ -64,7 +64,7 @@ static pia_status take_constraint(pia_fit *fit, const pia_constraint *given, pia
     return PIA_OK;
 }
 
-static pia_status add_constraint(pia_fit *fit, const pia_constraint *given)
+pia_status pia_fit_add_constraint(pia_fit *fit, const pia_constraint *given)
 {
     void *list = fit->constraint;
     int grown =
@@ -84,9 +84,10 @@ pia_status pia_fit_take_constraints(pia_fit *fit)
         pia_constraint c;
         pia_constraint_init(&c);
         c.at_point = o->interpolate[i];
-        status = add_constraint(fit, &c);
+        status = pia_fit_add_constraint(fit, &c);
     }
-    for (pia_index i = 0; i < o->constraint_count && status == PIA_OK; i++) status = add_constraint(fit, &o->constraints[i]);
+    for (pia_index i = 0; i < o->constraint_count && status == PIA_OK; i++) status = pia_fit_add_constraint(fit, &o->constraints[i]);
+    for (pia_index i = 0; i < o->join_count && status == PIA_OK; i++) status = pia_fit_add_join(fit, &o->joins[i]);
     return status;
 }
 
@@ -153,16 +154,18 @@ static int knows_constraints(const pia_fit *fit)
     return (fit->solve.method->needs & PIA_KNOWS_CONSTRAINTS) != 0 || fit->options.soft > 0;
 }
 
-pia_status pia_fit_constrain(pia_fit *fit, const pia_constraint *constraints, pia_index count, pia_index *first_id)
+static pia_status check_knows(pia_fit *fit)
 {
-    if (fit->square || !knows_constraints(fit))
-        return pia_fail(fit->context, PIA_E_ARGUMENT,
-                        "method %s knows no constraints here; use clspia, clspia-pcg or direct with fewer control "
-                        "points than data",
-                        fit->solve.method->name);
-    pia_index before = fit->constraint_count;
-    pia_status status = PIA_OK;
-    for (pia_index i = 0; i < count && status == PIA_OK; i++) status = add_constraint(fit, &constraints[i]);
+    if (!fit->square && knows_constraints(fit)) return PIA_OK;
+    return pia_fail(fit->context, PIA_E_ARGUMENT,
+                    "method %s knows no constraints here; use clspia, clspia-pcg or direct with fewer control "
+                    "points than data",
+                    fit->solve.method->name);
+}
+
+/* Takes what was added after the first `before` into the fit, or drops it again. */
+static pia_status settle(pia_fit *fit, pia_status status, pia_index before, pia_index *first_id)
+{
     if (status == PIA_OK) status = pia_fit_bind(fit);
     if (status == PIA_OK) status = pia_fit_restart(fit);
     if (status == PIA_OK) {
@@ -171,6 +174,25 @@ pia_status pia_fit_constrain(pia_fit *fit, const pia_constraint *constraints, pi
     }
     while (fit->constraint_count > before) release_value(fit, &fit->constraint[--fit->constraint_count]);
     if (pia_fit_bind(fit) == PIA_OK) pia_fit_restart(fit);
+    return status;
+}
+
+pia_status pia_fit_constrain(pia_fit *fit, const pia_constraint *constraints, pia_index count, pia_index *first_id)
+{
+    pia_index before = fit->constraint_count;
+    pia_status status = check_knows(fit);
+    if (status != PIA_OK) return status;
+    for (pia_index i = 0; i < count && status == PIA_OK; i++) status = pia_fit_add_constraint(fit, &constraints[i]);
+    return settle(fit, status, before, first_id);
+}
+
+pia_status pia_fit_join(pia_fit *fit, const pia_join *join, pia_index *first_id, pia_index *count)
+{
+    pia_index before = fit->constraint_count;
+    pia_status status = check_knows(fit);
+    if (status != PIA_OK) return status;
+    status = settle(fit, pia_fit_add_join(fit, join), before, first_id);
+    if (status == PIA_OK && count != NULL) *count = fit->constraint_count - before;
     return status;
 }
 

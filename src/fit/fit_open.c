@@ -84,7 +84,7 @@ int pia_fit_is_one_step(const pia_fit *fit)
     const pia_fit_options *o = &fit->options;
     int asked = o->tolerance > 0 || o->time_limit > 0 || o->trace_every > 0 || o->progress != NULL || o->max_iterations == 0;
     return fit->borrowed && fit->square && (fit->solve.method->needs & PIA_IS_FINITE) != 0 && !asked && o->start == NULL &&
-           o->freeze_count == 0 && o->constraint_count == 0 && pia_windows_suit(fit->op);
+           o->freeze_count == 0 && o->constraint_count == 0 && o->join_count == 0 && pia_windows_suit(fit->op);
 }
 
 static pia_status take_iterate(pia_fit *fit)
