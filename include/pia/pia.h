@@ -294,7 +294,9 @@ int pia_list_options(pia_index index, pia_option *out);
 /* ------------------------------------------------------------------------ the one call, the progressive service ---- */
 
 /* Fit from data to model: open, run, model, close, without a copy of the points where the method allows.
- * model, report: either may be NULL. Errors: PIA_E_ARGUMENT, SHAPE, DATA, CONSTRAINT, MEMORY, SIZE, UNAVAILABLE. */
+ * model, report: either may be NULL. Without a report and a tolerance nobody asks for the errors of a least-squares fit: the pass over
+ * the data that measures them is left out, and what the model says of the fit has NAN for them.
+ * Errors: PIA_E_ARGUMENT, SHAPE, DATA, CONSTRAINT, MEMORY, SIZE, UNAVAILABLE. */
 pia_status pia_fit_data(pia_context *context, const pia_data *data, const pia_fit_options *options, pia_model **model,
                         pia_report *report);
 

@@ -158,7 +158,10 @@ pia_status pia_fit_project(pia_iterate *iterate);
 /* Opens without a copy of the data where the method allows: data outlives the fit. */
 pia_status pia_fit_borrow(pia_context *context, const pia_data *data, const pia_fit_options *options, pia_fit **out);
 
-/* pia_fit_model for a fit that can only be closed afterwards: its arrays become the model's where they can. */
+/* pia_fit_report without a pass over the data: errors are NAN, and their row -1, where they are not known. */
+void pia_fit_tell(pia_fit *fit, pia_report *report);
+/* pia_fit_model for a fit that can only be closed afterwards: its arrays become the model's where they can. Errors that nobody has
+ * asked for yet are not measured for it. */
 pia_status pia_fit_turn_into_model(pia_fit *fit, pia_model **out);
 
 /* The constraints of the options; then the rows that the list makes on the current operator (bind), and their end. */

@@ -153,13 +153,14 @@ static pia_status give_model(pia_fit *fit, pia_model **out)
     return pia_model_adopt(fit->context, fit->directions, fit->degree, fit->full, fit->dim, 0, fit->knots, &fit->iterate.points, out);
 }
 
+/* With a summary of what is known. */
 static pia_status model_of(pia_fit *fit, pia_status (*make)(pia_fit *fit, pia_model **out), pia_model **out)
 {
     pia_model *model = NULL;
     pia_report report = {.struct_size = sizeof report};
     pia_fit_conclude(fit);
-    pia_status status = pia_fit_report(fit, &report);
-    if (status == PIA_OK) status = make(fit, &model);
+    pia_fit_tell(fit, &report);
+    pia_status status = make(fit, &model);
     if (status == PIA_OK) status = attach_summary(fit, &report, model);
     if (status == PIA_OK)
         *out = model;
@@ -170,10 +171,13 @@ static pia_status model_of(pia_fit *fit, pia_status (*make)(pia_fit *fit, pia_mo
 
 pia_status pia_fit_model(pia_fit *fit, pia_model **out)
 {
-    return out != NULL ? model_of(fit, pia_fit_bare_model, out) : pia_fail(fit->context, PIA_E_ARGUMENT, "out is NULL");
+    if (out == NULL) return pia_fail(fit->context, PIA_E_ARGUMENT, "out is NULL");
+    pia_iterate_measure(&fit->iterate);
+    return model_of(fit, pia_fit_bare_model, out);
 }
 
 pia_status pia_fit_turn_into_model(pia_fit *fit, pia_model **out)
 {
+    if (fit->options.tolerance > 0) pia_iterate_measure(&fit->iterate);
     return model_of(fit, give_model, out);
 }

@@ -58,22 +58,31 @@ static int reached(const pia_fit *fit)
     return fit->options.tolerance > 0 ? fit->iterate.errors.max <= fit->options.tolerance : PIA_AUTO;
 }
 
-pia_status pia_fit_report(pia_fit *fit, pia_report *report)
+static void describe_errors(pia_fit *fit, pia_report *report)
+{
+    const pia_errors *errors = &fit->iterate.errors;
+    report->max_error_index = -1;
+    report->max_error = report->rms_error = NAN;
+    report->reached = PIA_AUTO;
+    if (!fit->iterate.errors_known) return;
+    report->max_error = errors->max;
+    report->max_error_index = data_row(fit, errors->max_row);
+    report->rms_error = errors->count > 0 ? sqrt(errors->sum_squares / (double)errors->count) : 0;
+    report->reached = reached(fit);
+    if (isnan(fit->solve.start_error)) fit->solve.start_error = errors->max;
+}
+
+void pia_fit_tell(pia_fit *fit, pia_report *out)
 {
     const pia_iterate *iterate = &fit->iterate;
     pia_report full;
-    pia_iterate_measure(&fit->iterate);
     pia_fit_measure_constraints(fit);
     describe(fit, &full);
+    describe_errors(fit, &full);
     full.iterations = iterate->iteration;
     full.stop = fit->solve.stop;
-    full.max_error = iterate->errors.max;
-    full.max_error_index = data_row(fit, iterate->errors.max_row);
-    full.rms_error = iterate->errors.count > 0 ? sqrt(iterate->errors.sum_squares / (double)iterate->errors.count) : 0;
-    full.reached = reached(fit);
     full.constraint_error = iterate->constraint_error;
     full.relative_gradient = iterate->relative_gradient;
-    if (isnan(fit->solve.start_error)) fit->solve.start_error = full.max_error;
     full.start_error = fit->solve.start_error;
     full.rate = fit->solve.rate;
     full.unsupported_count = fit->unsupported_count;
@@ -82,7 +91,13 @@ pia_status pia_fit_report(pia_fit *fit, pia_report *report)
     full.measure_distance = fit->refining && fit->options.measure_distance && iterate->project != NULL;
     full.round_count = fit->round;
     full.seconds = fit->seconds + fit->solve.seconds;
-    pia_options_write(report, &full, sizeof full);
+    pia_options_write(out, &full, sizeof full);
+}
+
+pia_status pia_fit_report(pia_fit *fit, pia_report *report)
+{
+    pia_iterate_measure(&fit->iterate);
+    pia_fit_tell(fit, report);
     return PIA_OK;
 }
 
