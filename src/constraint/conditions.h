@@ -64,6 +64,8 @@ void pia_schur_solve_conditions(const pia_schur *s, double *x);
 void pia_schur_solve(const pia_constraints *c, const pia_schur *s, const double *left, double *multiplier);
 /* S of H^-1, unfactored. Errors: PIA_E_MEMORY. */
 pia_status pia_schur_of_normal(const pia_constraints *c, const pia_normal *normal, pia_schur *s);
+/* The same where H is a Kronecker product of full rank: O(count (count + unknowns a direction) degree). */
+pia_status pia_schur_of_product(const pia_constraints *c, const pia_normal *normal, pia_schur *s);
 /* S of the metric D^-1, unfactored. */
 void pia_schur_of_metric(const pia_constraints *c, pia_schur *s);
 

@@ -32,6 +32,7 @@ static void put_column(const pia_constraints *c, pia_index j, int k, double *y)
 /* As many rows at a time as a point has components: the normal form has room for those. */
 pia_status pia_schur_of_normal(const pia_constraints *c, const pia_normal *normal, pia_schur *s)
 {
+    if (normal->class->solve_along != NULL && normal->weak == 0) return pia_schur_of_product(c, normal, s);
     int dim = c->dim;
     pia_index size = c->op->cols * dim;
     double *y = pia_take(c->context, size, 2 * sizeof *y), *column = pia_take(c->context, c->count, (size_t)dim * sizeof *column);

@@ -15,8 +15,13 @@ typedef struct pia_normal_class {
     void (*multiply)(const pia_normal *normal, const double *x, int dim, double *y); /* y = H x */
     pia_status (*factor)(pia_normal *normal);                                        /* before solve, and after every change */
     void (*solve)(const pia_normal *normal, double *b, int dim);                     /* b := H^-1 b */
-    void (*sweep)(const pia_normal *normal, double *x, int dim);                     /* one symmetric Gauss-Seidel sweep for H x = b;
-                                                                                        NULL: the rows of H are not at hand */
+    void (*solve_along)(const pia_normal *normal, int direction, double *b,
+                        pia_index width); /* b [unknowns of direction x width] := G^-1 b, H = Gu (x) Gv; NULL: H is no product */
+    void (*sweep)(const pia_normal *normal, double *x, int dim); /* one symmetric Gauss-Seidel sweep for H x = b;
+                                                                    NULL: the rows of H are not at hand */
+    pia_status (*correct)(pia_normal *normal, const pia_targets *targets, const double *x, double *d); /* of a delicate form: d takes x
+                                                                                        to the minimiser, from the rows themselves, and
+                                                                                        solve is as exact from then on */
     pia_status (*approximate)(pia_normal *normal);                      /* before precondition, and after every change; NULL: factor */
     void (*precondition)(const pia_normal *normal, double *b, int dim); /* b := M^-1 b, M close to H; NULL: solve */
     void (*refresh)(pia_normal *normal, const pia_targets *targets, pia_index first_row, pia_index last_row);
@@ -30,6 +35,7 @@ struct pia_normal {
     double *diagonal;          /* of H [cols] */
     double *column_sum;        /* sum over rows of w N_c [cols] */
     pia_index weak;            /* unknowns that the data do not hold, known after factor: solutions are 0 or small there */
+    int delicate;              /* 1, known after factor: H has lost digits that the rows still have, and `correct` is there */
     struct pia_energy *energy; /* added to H, see energy.h; NULL: none */
     double pull;               /* pull (P - start)^2 is added to the squares; 0: none */
     const double *start;       /* [cols x dim], borrowed */

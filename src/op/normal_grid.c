@@ -86,6 +86,12 @@ static void solve(const pia_normal *normal, double *b, int dim)
     pia_gram_solve(&g->gram[1], b, g->gram[0].count, dim);
 }
 
+static void solve_along(const pia_normal *normal, int direction, double *b, pia_index width)
+{
+    const grid *g = normal->state;
+    pia_gram_solve(&g->gram[direction], b, 1, width);
+}
+
 static void refresh(pia_normal *normal, const pia_targets *targets, pia_index first_row, pia_index last_row)
 {
     (void)first_row;
@@ -105,8 +111,13 @@ static void close(pia_normal *normal)
     pia_give(context, g);
 }
 
-static const pia_normal_class kronecker = {
-    .name = "kronecker", .multiply = multiply, .factor = factor, .solve = solve, .refresh = refresh, .close = close};
+static const pia_normal_class kronecker = {.name = "kronecker",
+                                           .multiply = multiply,
+                                           .factor = factor,
+                                           .solve = solve,
+                                           .solve_along = solve_along,
+                                           .refresh = refresh,
+                                           .close = close};
 
 static pia_status take_arrays(pia_context *context, const pia_op *op, int dim, grid *g)
 {

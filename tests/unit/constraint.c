@@ -12,7 +12,7 @@ static const shape shapes[] = {
     {PIA_CURVE, 3, 0, 12, 0, 40, 3, 0, 0, 0},    {PIA_CURVE, 1, 0, 9, 0, 30, 1, 0, 1, 0},  {PIA_CURVE, 5, 0, 14, 0, 50, 2, 1, 0, 0},
     {PIA_CURVE, 2, 0, 10, 0, 40, 2, 1, 1, 1},    {PIA_CURVE, 4, 0, 11, 0, 44, 4, 0, 0, 1}, {PIA_GRID, 3, 3, 7, 6, 20, 3, 0, 0, 0},
     {PIA_GRID, 2, 3, 6, 7, 21, 2, 2, 1, 0},      {PIA_GRID, 3, 1, 8, 5, 24, 1, 3, 0, 1},   {PIA_SCATTERED, 3, 3, 7, 7, 22, 3, 0, 0, 0},
-    {PIA_SCATTERED, 2, 2, 6, 7, 21, 2, 1, 1, 1},
+    {PIA_SCATTERED, 2, 2, 6, 7, 21, 2, 1, 1, 1}, {PIA_GRID, 2, 3, 6, 7, 21, 2, 3, 0, 0},
 };
 enum { SHAPES = sizeof shapes / sizeof *shapes, ROOM = 12 };
 
