@@ -45,7 +45,10 @@ static pia_status solve(pia_iterate *iterate, double steps)
         return pia_square_solve(iterate->op, iterate->adjust, iterate->dim);
     }
     pia_status status = steps == 0 ? iterate->normal->class->factor(iterate->normal) : PIA_OK;
-    if (status == PIA_OK) iterate->normal->class->solve(iterate->normal, iterate->adjust, iterate->dim);
+    pia_normal *normal = iterate->normal;
+    if (status == PIA_OK && normal->delicate)
+        status = normal->class->correct(normal, &iterate->targets, iterate->points, iterate->adjust);
+    if (status == PIA_OK && !normal->delicate) normal->class->solve(normal, iterate->adjust, iterate->dim);
     pia_op_mask(iterate->op, iterate->adjust, iterate->dim);
     if (status != PIA_OK || iterate->constraints == NULL) return status;
     if (steps == 0) status = pia_constraints_factor(iterate->constraints, iterate->normal);

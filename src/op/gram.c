@@ -199,9 +199,9 @@ pia_status pia_gram_factor(pia_gram *gram, const unsigned char *frozen)
     pia_status status = take_factor(gram);
     if (status != PIA_OK) return status;
     gram->weak = find_scale(gram, frozen);
-    pia_index refused = factor_scaled(gram, 0);
-    if (refused > 0) factor_scaled(gram, ridge);
-    gram->weak += refused;
+    gram->refused = factor_scaled(gram, 0);
+    if (gram->refused > 0) factor_scaled(gram, ridge);
+    gram->weak += gram->refused;
     return PIA_OK;
 }
 

@@ -13,7 +13,8 @@ typedef struct pia_gram {
     double *factor, *border;     /* LDL' of the band scaled to diagonal 1; NULL until factored */
     double *scale;               /* [count] of that scaling, 0 where an unknown is frozen or has no data */
     int factor_width;
-    pia_index weak; /* unknowns without data, or that the data do not tell apart */
+    pia_index weak;    /* unknowns without data, or that the data do not tell apart */
+    pia_index refused; /* those of the second kind, as far as the digits of the matrix say */
 } pia_gram;
 
 /* A matrix of zeros. */

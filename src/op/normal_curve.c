@@ -2,13 +2,17 @@
  * together in order of the spans, which costs as much as one iteration. */
 #include "energy.h"
 #include "normal.h"
+#include "orthogonal.h"
 #include "span_sums.h"
 
 #include <string.h>
 
+enum { HIGH_DEGREE = 10 }; /* from here on H has too few digits: its condition is 1e9 at degree 10, 2e11 at 25 */
+
 typedef struct curve {
     pia_gram gram;
-    double *share; /* [spans x room] */
+    pia_band_qr orthogonal; /* R of the rows, once `correct` was called; empty before */
+    double *share;          /* [spans x room] */
     int room;
 } curve;
 
@@ -85,15 +89,27 @@ static void multiply(const pia_normal *normal, const double *x, int dim, double 
 static pia_status factor(pia_normal *normal)
 {
     curve *c = normal->state;
+    pia_band_qr_close(c->gram.context, &c->orthogonal);
     pia_status status = pia_gram_factor(&c->gram, normal->op->frozen);
     normal->weak = c->gram.weak;
+    normal->delicate = (c->gram.refused > 0 || c->gram.width >= HIGH_DEGREE) && pia_orthogonal_suits(normal);
     return status;
+}
+
+static pia_status correct(pia_normal *normal, const pia_targets *targets, const double *x, double *d)
+{
+    curve *c = normal->state;
+    pia_band_qr_close(c->gram.context, &c->orthogonal);
+    return pia_orthogonal_correct(normal, targets, x, d, &c->orthogonal, &normal->weak);
 }
 
 static void solve(const pia_normal *normal, double *b, int dim)
 {
     const curve *c = normal->state;
-    pia_gram_solve(&c->gram, b, 1, dim);
+    if (c->orthogonal.r != NULL)
+        pia_orthogonal_solve(&c->orthogonal, b, dim);
+    else
+        pia_gram_solve(&c->gram, b, 1, dim);
 }
 
 static void sweep(const pia_normal *normal, double *x, int dim)
@@ -119,12 +135,19 @@ static void close(pia_normal *normal)
     curve *c = normal->state;
     pia_context *context = normal->op->context;
     pia_give(context, c->share);
+    pia_band_qr_close(context, &c->orthogonal);
     pia_gram_close(&c->gram);
     pia_give(context, c);
 }
 
-static const pia_normal_class banded = {
-    .name = "banded", .multiply = multiply, .factor = factor, .solve = solve, .sweep = sweep, .refresh = refresh, .close = close};
+static const pia_normal_class banded = {.name = "banded",
+                                        .multiply = multiply,
+                                        .factor = factor,
+                                        .solve = solve,
+                                        .correct = correct,
+                                        .sweep = sweep,
+                                        .refresh = refresh,
+                                        .close = close};
 
 pia_status pia_normal_curve_open(pia_normal *normal, const pia_targets *targets, const pia_addition *addition)
 {
