@@ -272,7 +272,8 @@ typedef enum pia_option_type {
     PIA_OPTION_INDICES,     /* const pia_index *, and their count */
     PIA_OPTION_NUMBERS,     /* const double *, and their count */
     PIA_OPTION_CONSTRAINTS, /* const pia_constraint *, and their count */
-    PIA_OPTION_MODEL        /* const pia_model * */
+    PIA_OPTION_MODEL,       /* const pia_model * */
+    PIA_OPTION_JOINS        /* const pia_join *, and their count */
 } pia_option_type;
 
 /* A member of pia_fit_options, for programs that fill the struct by name: bindings, settings files. */

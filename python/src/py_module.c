@@ -46,6 +46,7 @@ static PyObject *options(PyObject *module, PyObject *nothing)
     pia_option o;
     PyObject *list = PyList_New(0);
     for (pia_index i = 0; list != NULL && pia_list_options(i, &o); i++) {
+        if (o.type == PIA_OPTION_JOINS) continue; /* not offered here */
         PyObject *item = Py_BuildValue("(ssiidddzs)", o.name, type[o.type], o.directions, o.automatic, o.minimum, o.maximum, o.initial,
                                        o.values, o.sentence);
         if (item == NULL || PyList_Append(list, item) < 0) Py_CLEAR(list);

@@ -4,8 +4,9 @@
 static PyObject *run_once(PyTypeObject *type, py_worker *worker, const py_request *request)
 {
     pia_model *model = NULL;
+    pia_report report = {.struct_size = sizeof report}; /* asked for, so that the model knows its errors */
     worker_begin(worker);
-    pia_status status = pia_fit_data(worker->context, &request->data, &request->options, &model, NULL);
+    pia_status status = pia_fit_data(worker->context, &request->data, &request->options, &model, &report);
     worker_end(worker);
     if (status != PIA_OK) {
         worker_check(worker, status);

@@ -256,6 +256,10 @@ static int put_array(py_request *request, const pia_option *option, PyObject *va
     if (option->type == PIA_OPTION_CONSTRAINTS)
         return request_constraints(request, value, request->data.dim - request->data.function_graph,
                                    (const pia_constraint **)(void *)member, (pia_index *)(void *)count);
+    if (option->type == PIA_OPTION_JOINS) {
+        PyErr_SetString(PyExc_TypeError, "not offered here; give values and derivatives at the edge as constraints");
+        return -1;
+    }
     const py_numbers *numbers = keep_numbers(request, value, option->name);
     if (numbers == NULL) return -1;
     ((const double **)(void *)member)[d] = numbers->value;

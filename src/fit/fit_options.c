@@ -29,6 +29,7 @@ static const pia_option table[] = {
     {AT(start, MODEL), .sentence = "its knots, degrees and control points are iterate 0; left out: the method's own start"},
     {AT(interpolate, INDICES), COUNTED(interpolate_count), .sentence = "data rows met exactly"},
     {AT(constraints, CONSTRAINTS), COUNTED(constraint_count), .sentence = "values and derivatives met exactly"},
+    {AT(joins, JOINS), COUNTED(join_count), .sentence = "neighbouring models to go on from"},
     {AT(soft, NUMBER), RANGE(0, DBL_MAX), .sentence = "constraints become least-squares rows of this weight; 0: they are hard"},
     {AT(freeze, INDICES), COUNTED(freeze_count), .sentence = "control points that stay, row-major indices"},
     {AT(fairing, NUMBER), RANGE(0, DBL_MAX),
