@@ -37,11 +37,13 @@ static pia_index picked_row(const pia_fit *fit, int d, pia_index i)
 
 static void from_data(pia_fit *fit)
 {
-    pia_iterate *iterate = &fit->iterate;
-    for (pia_index c = 0; c < fit->op->cols; c++) {
-        pia_index row = picked_row(fit, 0, c / fit->op->count[1]);
-        if (fit->directions == 2) row = row * fit->count[1] + picked_row(fit, 1, c % fit->op->count[1]);
-        for (int d = 0; d < fit->dim; d++) iterate->points[c * fit->dim + d] = fit->points[row * fit->dim + d] - fit->origin[d];
+    double *to = fit->iterate.points;
+    for (pia_index i = 0; i < fit->op->count[0]; i++) {
+        pia_index line = picked_row(fit, 0, i) * fit->count[1];
+        for (pia_index j = 0; j < fit->op->count[1]; j++, to += fit->dim) {
+            pia_index row = line + (fit->directions == 2 ? picked_row(fit, 1, j) : 0);
+            for (int d = 0; d < fit->dim; d++) to[d] = fit->points[row * fit->dim + d] - fit->origin[d];
+        }
     }
 }
 

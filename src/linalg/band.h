@@ -28,6 +28,7 @@ typedef struct pia_band_lu {
 } pia_band_lu;
 /* PIA_E_DATA with the row when a pivot vanishes (Schoenberg-Whitney fails there), PIA_E_MEMORY, PIA_E_SIZE; *out is then empty. */
 pia_status pia_band_lu_factor(pia_context *context, const double *a, const pia_index *first, pia_index n, int width, pia_band_lu *out);
+enum { PIA_BAND_SIDES = 32 }; /* right-hand sides that are solved together at the least cost each */
 void pia_band_lu_solve(const pia_band_lu *lu, double *b, int dim);
 /* Solves the transposed system. */
 void pia_band_lu_solve_transposed(const pia_band_lu *lu, double *b, int dim);

@@ -2,18 +2,18 @@
  * division and a solve that happens once needs to keep the strict upper band only. */
 #include "band.h"
 
+#include "clones.h"
+
 #include <float.h>
 #include <math.h>
 #include <string.h>
-
-#define INLINE static inline __attribute__((always_inline))
 
 enum { BLOCK = 128 };
 
 /* Reduces one row by those before it and divides its upper band by the pivot. `row` points to its diagonal entry, `u` to where its
  * strict upper band will be; the band of the row r places before it is at u - r * stride. A pivot that is only rounding left over from
  * the diagonal entry it came from (or no ordinary number) stands for a singular matrix: the result is then 0, otherwise 1 / pivot. */
-INLINE double reduce_row(double *row, const double *u, pia_index stride, int reach, int upper, double tolerance)
+PIA_INLINE double reduce_row(double *row, const double *u, pia_index stride, int reach, int upper, double tolerance)
 {
     double least = tolerance * fabs(row[0]) + DBL_MIN;
     for (int r = reach; r >= 1; r--) {
@@ -70,7 +70,7 @@ static double largest_entry(const double *a, int width)
 }
 
 /* The row is worked on in a copy that the compiler may keep in registers. */
-INLINE int factor_row(double *entry, int before, int lower, int upper, double tolerance)
+PIA_INLINE int factor_row(double *entry, int before, int lower, int upper, double tolerance)
 {
     double row[2 * PIA_MAX_DEGREE + 1];
     int size = lower + 1 + upper;
@@ -81,7 +81,7 @@ INLINE int factor_row(double *entry, int before, int lower, int upper, double to
 }
 
 /* Returns the first row whose pivot vanishes, n when there is none. */
-INLINE pia_index factor(double *entry, pia_index n, int lower, int upper)
+PIA_INLINE pia_index factor(double *entry, pia_index n, int lower, int upper)
 {
     pia_index size = lower + 1 + upper;
     double tolerance = vanishing((int)size);
@@ -142,26 +142,26 @@ pia_status pia_band_lu_factor(pia_context *context, const double *a, const pia_i
 }
 
 /* x_i = (b_i - sum L x) / pivot with the `reach` rows before it. */
-INLINE void forward_row(const double *row, double inverse, int reach, double *x, int dim)
+PIA_INLINE void forward_row(const double *row, double inverse, int reach, double *x, int dim)
 {
     for (int r = reach; r >= 1; r--)
         for (int c = 0; c < dim; c++) x[c] -= row[-r] * x[c - r * dim];
     for (int c = 0; c < dim; c++) x[c] *= inverse;
 }
 
-INLINE void backward_row(const double *u, int reach, double *x, int dim)
+PIA_INLINE void backward_row(const double *u, int reach, double *x, int dim)
 {
     for (int r = reach; r >= 1; r--)
         for (int c = 0; c < dim; c++) x[c] -= u[r - 1] * x[c + r * dim];
 }
 
-INLINE void back_substitute(const double *u, pia_index stride, pia_index n, int upper, double *b, int dim)
+PIA_INLINE void back_substitute(const double *u, pia_index stride, pia_index n, int upper, double *b, int dim)
 {
     for (pia_index i = n - 1; i >= 0 && n - 1 - i < upper; i--) backward_row(u + i * stride, (int)(n - 1 - i), b + i * dim, dim);
     for (pia_index i = n - 1 - upper; i >= 0; i--) backward_row(u + i * stride, upper, b + i * dim, dim);
 }
 
-INLINE void solve(const pia_band_lu *lu, int lower, int upper, double *b, int dim)
+PIA_INLINE void solve(const pia_band_lu *lu, int lower, int upper, double *b, int dim)
 {
     pia_index stride = lower + 1 + upper;
     const double *entry = lu->entry + lower;
@@ -170,7 +170,7 @@ INLINE void solve(const pia_band_lu *lu, int lower, int upper, double *b, int di
     back_substitute(entry + 1, stride, lu->n, upper, b, dim);
 }
 
-INLINE void solve_any_dim(const pia_band_lu *lu, int lower, int upper, double *b, int dim)
+PIA_INLINE void solve_any_dim(const pia_band_lu *lu, int lower, int upper, double *b, int dim)
 {
     switch (dim) {
     case 1: solve(lu, lower, upper, b, 1); break;
@@ -181,9 +181,19 @@ INLINE void solve_any_dim(const pia_band_lu *lu, int lower, int upper, double *b
     }
 }
 
-void pia_band_lu_solve(const pia_band_lu *lu, double *b, int dim)
+PIA_CLONES static void solve_sides(const pia_band_lu *lu, double *b)
 {
     if (lu->lower == 1 && lu->upper == 1)
+        solve(lu, 1, 1, b, PIA_BAND_SIDES);
+    else
+        solve(lu, lu->lower, lu->upper, b, PIA_BAND_SIDES);
+}
+
+void pia_band_lu_solve(const pia_band_lu *lu, double *b, int dim)
+{
+    if (dim == PIA_BAND_SIDES)
+        solve_sides(lu, b);
+    else if (lu->lower == 1 && lu->upper == 1)
         solve_any_dim(lu, 1, 1, b, dim);
     else if (lu->lower == 2 && lu->upper == 2)
         solve_any_dim(lu, 2, 2, b, dim);
@@ -228,7 +238,7 @@ typedef struct stream {
 
 /* Rows are spread over their windows well before they are reduced, so that no load waits for a store that straddles it. Returns the
  * first row that does not reach its diagonal, `end` when there is none. */
-INLINE pia_index spread(const stream *s, pia_index begin, pia_index end, int width)
+PIA_INLINE pia_index spread(const stream *s, pia_index begin, pia_index end, int width)
 {
     int size = 2 * width - 1;
     s->rows(s->work, begin, end, s->first, s->a);
@@ -244,7 +254,7 @@ INLINE pia_index spread(const stream *s, pia_index begin, pia_index end, int wid
 }
 
 /* Reduces one row, keeps its upper band, carries its right-hand side. */
-INLINE int stream_row(const stream *s, pia_index i, const double *window, int before, int width, int dim)
+PIA_INLINE int stream_row(const stream *s, pia_index i, const double *window, int before, int width, int dim)
 {
     int reach = width - 1;
     double row[2 * PIA_MAX_DEGREE + 1], *u = s->u + i * reach;
@@ -256,7 +266,7 @@ INLINE int stream_row(const stream *s, pia_index i, const double *window, int be
 }
 
 /* Returns the first row whose pivot vanishes, n when there is none. */
-INLINE pia_index eliminate(const stream *s, int width, int dim)
+PIA_INLINE pia_index eliminate(const stream *s, int width, int dim)
 {
     for (pia_index begin = 0; begin < s->n; begin += BLOCK) {
         pia_index end = s->n - begin < BLOCK ? s->n : begin + BLOCK, bad = spread(s, begin, end, width);
@@ -271,7 +281,7 @@ INLINE pia_index eliminate(const stream *s, int width, int dim)
     return s->n;
 }
 
-INLINE pia_index eliminate_any_dim(const stream *s, int width, int dim)
+PIA_INLINE pia_index eliminate_any_dim(const stream *s, int width, int dim)
 {
     switch (dim) {
     case 1: return eliminate(s, width, 1);

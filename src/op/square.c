@@ -142,43 +142,92 @@ static void make_rows(void *work, pia_index begin, pia_index end, pia_index *fir
     }
 }
 
-/* Many right-hand sides of a grid's lines share one factorisation. */
-static pia_status solve_lines(pia_context *context, const equations *e, double *r, pia_index lines, int width)
+/* Lines of a grid along one direction, r [before x n x after]: before x after right-hand sides. As many at a time as the cache holds
+ * are put side by side, so that each row of the factors meets all of them in vectors. */
+enum { TOGETHER = PIA_BAND_SIDES, MAX_CHUNKS = 16 };
+
+typedef struct lines {
+    const pia_band_lu *lu;
+    double *r;
+    pia_index before, after, chunks;
+    double *block; /* [chunks x n x TOGETHER] */
+} lines;
+
+/* Where right-hand side number `side` begins. */
+static double *side_of(const lines *s, pia_index side)
 {
-    pia_status status = PIA_OK;
-    if (e->wraps) {
-        int dense = e->n <= 2 * (pia_index)e->width;
-        for (pia_index i = 0; status == PIA_OK && i < lines; i++)
-            status =
-                dense ? solve_dense(context, e, r + i * e->n * width, width) : solve_bordered(context, e, r + i * e->n * width, width);
-        return status;
-    }
-    pia_band_lu lu;
-    status = pia_band_lu_factor(context, e->entry, e->first, e->n, e->width, &lu);
-    if (status != PIA_OK) return status;
-    for (pia_index i = 0; i < lines; i++) pia_band_lu_solve(&lu, r + i * e->n * width, width);
-    pia_band_lu_clear(context, &lu);
-    return PIA_OK;
+    return s->r + side / s->after * s->lu->n * s->after + side % s->after;
 }
 
-static pia_status solve_line(pia_context *context, const pia_collocation *c, const unsigned char *frozen, double *r, pia_index lines,
-                             int width)
+static void solve_together(const lines *s, pia_index first, pia_index count, double *block)
+{
+    double *side[TOGETHER];
+    pia_index n = s->lu->n;
+    for (pia_index k = 0; k < TOGETHER; k++) side[k] = side_of(s, first + (k < count ? k : 0));
+    for (pia_index i = 0; i < n; i++)
+        for (pia_index k = 0; k < TOGETHER; k++) block[i * TOGETHER + k] = side[k][i * s->after];
+    pia_band_lu_solve(s->lu, block, TOGETHER);
+    for (pia_index i = 0; i < n; i++)
+        for (pia_index k = 0; k < count; k++) side[k][i * s->after] = block[i * TOGETHER + k];
+}
+
+static void solve_chunk(void *work, pia_index chunk)
+{
+    const lines *s = work;
+    pia_index sides = s->before * s->after, blocks = (sides + TOGETHER - 1) / TOGETHER;
+    for (pia_index b = pia_chunk_begin(blocks, s->chunks, chunk); b < pia_chunk_begin(blocks, s->chunks, chunk + 1); b++) {
+        pia_index first = b * TOGETHER, count = sides - first < TOGETHER ? sides - first : TOGETHER;
+        solve_together(s, first, count, s->block + chunk * s->lu->n * TOGETHER);
+    }
+}
+
+/* One factorisation for all of them. */
+static pia_status solve_banded(pia_context *context, const equations *e, double *r, pia_index before, pia_index after)
+{
+    pia_band_lu lu;
+    pia_status status = pia_band_lu_factor(context, e->entry, e->first, e->n, e->width, &lu);
+    if (status != PIA_OK) return status;
+    pia_index blocks = (before * after + TOGETHER - 1) / TOGETHER;
+    lines s = {&lu, r, before, after, blocks < MAX_CHUNKS ? blocks : MAX_CHUNKS, NULL};
+    s.block = pia_take(context, s.chunks * e->n, TOGETHER * sizeof *s.block);
+    if (s.block != NULL)
+        pia_for_each(context, s.chunks, solve_chunk, &s);
+    else
+        status = pia_take_status(context, s.chunks * e->n, TOGETHER * sizeof *s.block);
+    pia_give(context, s.block);
+    pia_band_lu_clear(context, &lu);
+    return status;
+}
+
+static pia_status solve_wrapping(pia_context *context, const equations *e, double *r, pia_index before, pia_index after)
+{
+    pia_status status = PIA_OK;
+    int dense = e->n <= 2 * (pia_index)e->width;
+    for (pia_index i = 0; status == PIA_OK && i < before; i++)
+        status = dense ? solve_dense(context, e, r + i * e->n * after, (int)after)
+                       : solve_bordered(context, e, r + i * e->n * after, (int)after);
+    return status;
+}
+
+/* Along one direction of r [before x unknowns x after]. */
+static pia_status solve_direction(pia_context *context, const pia_collocation *c, const unsigned char *frozen, double *r,
+                                  pia_index before, pia_index after)
 {
     stream rows = {c, frozen};
-    if (lines == 1 && c->map != PIA_MAP_CYCLIC)
-        return pia_band_lu_stream(context, make_rows, &rows, c->unknowns, c->degree + 1, r, width);
+    if (before == 1 && after <= PIA_MAX_DIM && c->map != PIA_MAP_CYCLIC)
+        return pia_band_lu_stream(context, make_rows, &rows, c->unknowns, c->degree + 1, r, (int)after);
     equations e;
     pia_status status = equations_open(context, c, frozen, &e);
     if (status != PIA_OK) return status;
-    status = solve_lines(context, &e, r, lines, width);
+    status = e.wraps ? solve_wrapping(context, &e, r, before, after) : solve_banded(context, &e, r, before, after);
     equations_clear(context, &e);
     return status;
 }
 
 pia_status pia_square_solve(const pia_op *op, double *r, int dim)
 {
-    if (op->directions == 1) return solve_line(op->context, op->line[0], op->frozen, r, 1, dim);
-    pia_status status = solve_line(op->context, op->line[0], NULL, r, 1, (int)(op->count[1] * dim));
-    if (status == PIA_OK) status = solve_line(op->context, op->line[1], NULL, r, op->count[0], dim);
+    if (op->directions == 1) return solve_direction(op->context, op->line[0], op->frozen, r, 1, dim);
+    pia_status status = solve_direction(op->context, op->line[0], NULL, r, 1, op->count[1] * dim);
+    if (status == PIA_OK) status = solve_direction(op->context, op->line[1], NULL, r, op->count[0], dim);
     return status;
 }
