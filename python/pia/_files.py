@@ -19,9 +19,30 @@ def load_all(path, format=None):
     return _pia.load(Model, path, format)
 
 
-def save(path, models, format=None, samples=None):
-    """Writes several models into one file, whole or not at all; see Model.save."""
-    _pia.save(path, format, tuple(models), -1 if samples is None else samples)
+_units = {"mm": 0, "m": 1, "inch": 2}
+_schemas = {"ap214": 0, "ap242": 1}
+
+
+def _chosen(what, word, words):
+    if word not in words:
+        raise ValueError(f"{what}: {word!r} is unknown; {', '.join(words)}")
+    return words[word]
+
+
+def save(path, models, format=None, samples=None, *, unit="mm", schema="ap214", tolerance=None, name=None):
+    """Writes models into one file, whole or not at all.
+
+    models     a Model or several
+    format     a name of pia.registry('format'); None: by extension
+    samples    points a direction, in formats that hold samples (csv, npy, obj); None: enough for a picture
+    unit       of STEP and IGES: 'mm', 'm' or 'inch'
+    schema     of STEP: 'ap214' or 'ap242'
+    tolerance  of STEP and IGES: distance below which points are the same, in that unit; None: 1e-7
+    name       of the part in STEP and IGES; None: that of the file
+    """
+    models = (models,) if isinstance(models, Model) else tuple(models)
+    unit, schema = _chosen("unit", unit, _units), _chosen("schema", schema, _schemas)
+    _pia.save(path, models, format, -1 if samples is None else samples, unit, schema, -1.0 if tolerance is None else tolerance, name)
 
 
 def read_parts(path, *, format=None, columns=None, skip_invalid=False, grid=False, allow_nan=False):
@@ -54,7 +75,8 @@ def read_points(path, *, format=None, columns=None, part=None, skip_invalid=Fals
 
 
 def plot(path, models, points=None, *, title=None, width=0, height=0, control=True, knots=True, comb=False, azimuth=None, elevation=None):
-    """Draws models, and the points they stand for coloured by deviation, into an svg, png or pdf file, whole or not at all.
+    """Draws models, and the points they stand for coloured by deviation, into an svg, png or pdf file, or as an interactive page into
+    an html file, whole or not at all.
 
     models            a Model or several
     points            [count, dim] or a grid, None: none

@@ -4,7 +4,7 @@ from . import _pia
 from ._arrays import joined, listed, numpy, shape_of, shaped
 from ._model import Model
 from ._options import Arguments, documented
-from ._report import Report, TraceRow, notes_of
+from ._report import Report, TraceRow, all_of
 
 _kinds = {"curve": 0, "grid": 1, "surface": 2, "function": 3}
 
@@ -159,7 +159,7 @@ class Fit(_pia.Fit):
     @property
     def warnings(self):
         """Choices, repairs and warnings, one line each."""
-        return notes_of(self._note)
+        return all_of(self._note)
 
     @property
     def trace(self):

@@ -2,7 +2,7 @@
 
 from . import _convert, _pia
 from ._arrays import listed, paired, shape_of, shaped
-from ._report import Deviation, Report, notes_of
+from ._report import Deviation, Report, all_of
 
 
 class Model(_pia.Model):
@@ -94,7 +94,7 @@ class Model(_pia.Model):
         if remembered is not None:
             return remembered
         members = self._report()
-        return Report(members, notes_of(self._note)) if members is not None else None
+        return Report(members, all_of(self._note)) if members is not None else None
 
     @property
     def parameters(self):
@@ -196,15 +196,32 @@ class Model(_pia.Model):
         """A model of the same shape whose inside knots are degree-fold: groups of control points are Bezier pieces."""
         return self._bezier()
 
+    def trim(self, loops):
+        """The same surface as the face inside the first loop and outside the others, closed polylines [vertices, 2] in the parameter
+        plane; no loops: the whole surface. JSON, STEP and IGES hold the loops; values and closest points are those of the whole."""
+        loops = [listed(loop) for loop in loops]
+        uv = [float(x) for loop in loops for vertex in loop for x in vertex]
+        return self._trim([len(loop) for loop in loops], uv)
+
+    @property
+    def trim_loops(self):
+        """The loops of a trimmed surface, a list of [vertices, 2]; empty for others."""
+        return [shaped(loop, (len(loop) // 2, 2)) for loop in all_of(self._trim_loop)]
+
+    def contains(self, u, v):
+        """Whether (u, v) lies in the face of a trimmed surface; True for other models."""
+        return self._contains(u, v)
+
     # ---- files, pictures, other libraries
 
-    def save(self, path, format=None, samples=None):
-        """Writes the model, whole or not at all. format: a name of pia.registry('format'), None: by extension. Formats that hold
-        samples (csv, npy, obj) take `samples` a direction."""
-        _pia.save(path, format, (self,), -1 if samples is None else samples)
+    def save(self, path, format=None, samples=None, **options):
+        """Writes the model, whole or not at all; see pia.save."""
+        from ._files import save
+
+        save(path, self, format, samples, **options)
 
     def plot(self, path, points=None, **options):
-        """Draws it into an svg, png or pdf file; see pia.plot."""
+        """Draws it into an svg, png, pdf or html file; see pia.plot."""
         from ._files import plot
 
         plot(path, self, points, **options)
@@ -238,6 +255,7 @@ class Model(_pia.Model):
         kind = ("rational " if self.rational else "") + ("closed " if any(info[5]) else "")
         report = self.report
         error = f", max error {report.max_error:.6g}" if report is not None else ""
+        kind += "trimmed " if self._trim_loop(0) is not None else ""
         return f"<pia.Model {kind}{shape} of degree {degree}, {count} control points in {self.dim} dimensions{error}>"
 
     def __copy__(self):
@@ -248,11 +266,13 @@ class Model(_pia.Model):
 
     def __reduce__(self):
         weights = self.weights if self.rational else None
-        return _restore, (type(self), self.degree, self.knots, self.control, weights, self.report)
+        return _restore, (type(self), self.degree, self.knots, self.control, weights, self.report, self.trim_loops)
 
 
-def _restore(cls, degree, knots, control, weights, report):
+def _restore(cls, degree, knots, control, weights, report, loops):
     model = cls(degree, knots, control, weights)
+    if loops:
+        model = model.trim(loops)
     model._remembered = report
     return model
 

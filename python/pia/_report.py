@@ -68,9 +68,9 @@ class TraceRow(NamedTuple):
     seconds: float
 
 
-def notes_of(note):
-    """All lines of the function note(index), which gives None past the end."""
-    lines = []
-    while (line := note(len(lines))) is not None:
-        lines.append(line)
-    return lines
+def all_of(item_at):
+    """All values of the function item_at(index), which gives None past the end."""
+    found = []
+    while (item := item_at(len(found))) is not None:
+        found.append(item)
+    return found

@@ -64,20 +64,27 @@ static const pia_model **take_models(PyObject *tuple)
     return model;
 }
 
-/* save(path, format or None, tuple of models, samples) */
+/* save(path, tuple of models, format or None, samples, unit, schema, tolerance, name or None): unit and schema as numbers of their
+ * enums */
 static PyObject *save(PyObject *module, PyObject *arguments)
 {
     (void)module;
     PyObject *path, *tuple;
-    const char *format;
     long long samples;
-    int failed = 1;
-    if (!PyArg_ParseTuple(arguments, "O&zO!L", PyUnicode_FSConverter, &path, &format, &PyTuple_Type, &tuple, &samples)) return NULL;
+    int unit, schema, failed = 1;
+    pia_write_options options;
+    pia_write_options_init(&options);
+    if (!PyArg_ParseTuple(arguments, "O&O!zLiidz", PyUnicode_FSConverter, &path, &PyTuple_Type, &tuple, &options.format, &samples,
+                          &unit, &schema, &options.tolerance, &options.name))
+        return NULL;
+    options.samples = samples;
+    options.unit = (pia_unit)unit;
+    options.step_schema = (pia_step_schema)schema;
     const pia_model **model = take_models(tuple);
     py_worker *worker = model != NULL ? worker_take(PIA_AUTO) : NULL;
     if (worker != NULL) {
         worker_begin(worker);
-        pia_status status = pia_model_write(worker->context, PyBytes_AsString(path), format, model, PyTuple_Size(tuple), samples);
+        pia_status status = pia_model_write_as(worker->context, PyBytes_AsString(path), model, PyTuple_Size(tuple), &options);
         worker_end(worker);
         failed = worker_check(worker, status) < 0;
     }

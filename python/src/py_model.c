@@ -383,6 +383,52 @@ static PyObject *bezier(PyObject *self, PyObject *nothing)
     return made(self, worker, status, model);
 }
 
+/* ---- trimming ---- */
+
+/* _trim(vertices of each loop, uv) */
+static PyObject *trim(PyObject *self, PyObject *arguments)
+{
+    PyObject *counts, *object, *result = NULL;
+    if (!PyArg_ParseTuple(arguments, "OO", &counts, &object)) return NULL;
+    py_request request = {0};
+    py_numbers uv = {0};
+    const pia_index *vertices;
+    pia_index loops, total = 0;
+    int code = request_indices(&request, counts, "loops", &vertices, &loops);
+    if (code == 0) code = numbers_take(object, "loops", &uv);
+    for (pia_index i = 0; code == 0 && i < loops; i++) total += vertices[i];
+    if (code == 0 && uv.count != 2 * total)
+        PyErr_SetString(binding.errors[PIA_E_SHAPE], "loops: each is [vertices, 2], u and v");
+    else if (code == 0) {
+        py_worker *worker = worker_take(PIA_AUTO);
+        pia_model *model = NULL;
+        if (worker != NULL) {
+            pia_status status = pia_model_trim(worker->context, own(self), loops, vertices, uv.value, &model);
+            result = made(self, worker, status, model);
+        }
+    }
+    numbers_give(&uv);
+    request_give(&request);
+    return result;
+}
+
+/* _trim_loop(index) -> uv, None past the last */
+static PyObject *trim_loop(PyObject *self, PyObject *arguments)
+{
+    long long index;
+    pia_index count;
+    if (!PyArg_ParseTuple(arguments, "L", &index)) return NULL;
+    const double *uv = pia_model_trim_loop(own(self), index, &count);
+    return uv != NULL ? numbers_copy(uv, 2 * count) : Py_NewRef(Py_None);
+}
+
+static PyObject *contains(PyObject *self, PyObject *arguments)
+{
+    double u, v;
+    if (!PyArg_ParseTuple(arguments, "dd", &u, &v)) return NULL;
+    return PyBool_FromLong(pia_model_trim_contains(own(self), u, v));
+}
+
 /* ---- measures ---- */
 
 static PyObject *length(PyObject *self, PyObject *nothing)
@@ -427,6 +473,9 @@ static PyMethodDef methods[] = {
     {"_elevate", elevate, METH_VARARGS, NULL},
     {"_split", split, METH_VARARGS, NULL},
     {"_bezier", bezier, METH_NOARGS, NULL},
+    {"_trim", trim, METH_VARARGS, NULL},
+    {"_trim_loop", trim_loop, METH_VARARGS, NULL},
+    {"_contains", contains, METH_VARARGS, NULL},
     {"_length", length, METH_NOARGS, NULL},
     {"_bounds", bounds, METH_NOARGS, NULL},
     {NULL, NULL, 0, NULL},

@@ -36,6 +36,8 @@ def work():
     model(0.5), model([0.1, 0.2]), model.derivative(0.5, order=2), model.curvature(0.5)
     model.closest(POINTS[:3]), model.deviation(POINTS), model.bounds(), model.length()
     model.insert_knots([0.5]), model.elevate(), model.split(0.5), model.bezier(), model.remove_knots(0.1)
+    saddle = pia.Model((1, 1), ([0, 0, 1, 1], [0, 0, 1, 1]), [[[0, 0, 0], [0, 1, 0]], [[1, 0, 0], [1, 1, 1]]])
+    saddle.trim([[[0.1, 0.1], [0.9, 0.1], [0.5, 0.9]]]).trim_loops
     model.knots, model.control, model.weights, model.report, model.parameters, repr(model)
     pickle.loads(pickle.dumps(model)), pia.Model.from_dict(model.to_dict())
     with pia.Fit(POINTS, control=10, method="lspia", trace_every=1, progress=lambda report: False) as fit:

@@ -120,6 +120,27 @@ class Edits(Case):
         self.assertEqual(surface.control_count, (2, 3))
 
 
+    def test_a_trimmed_surface_keeps_its_loops(self):
+        outside = [[0.1, 0.1], [0.9, 0.1], [0.9, 0.9], [0.1, 0.9]]
+        hole = [[0.4, 0.4], [0.4, 0.6], [0.6, 0.6], [0.6, 0.4]]
+        face = saddle().trim([outside, hole])
+        self.assertEqual((face.contains(0.2, 0.2), face.contains(0.5, 0.5), face.contains(0.05, 0.5)), (True, False, False))
+        self.assertIn("trimmed surface", repr(face))
+        self.same(face(0.5, 0.5), saddle()(0.5, 0.5))
+        again = pickle.loads(pickle.dumps(face))
+        self.assertEqual([flat(loop) for loop in again.trim_loops], [flat(loop) for loop in face.trim_loops])
+        self.assertEqual(sorted(map(tuple, zip(*[iter(flat(face.trim_loops[0]))] * 2))), sorted(map(tuple, outside)))
+        self.assertEqual(face.trim([]).trim_loops, [])
+        self.assertTrue(quarter().contains(0.5, 0))
+        with tempfile.TemporaryDirectory() as folder:
+            path = os.path.join(folder, "face.json")
+            face.save(path)
+            self.assertEqual(len(pia.load(path).trim_loops), 2)
+        self.assertRaises(pia.ShapeError, saddle().trim, [[[0.1, 0.1, 0.1]] * 3])
+        self.assertRaises(pia.Error, saddle().trim, [outside, outside])
+        self.assertRaises(pia.Error, quarter().trim, [outside])
+
+
 class Files(Case):
     def test_a_model_and_its_report_come_back_from_json(self):
         model = pia.fit_curve(wave(50), tolerance=1e-3)
@@ -136,6 +157,13 @@ class Files(Case):
                 self.assertGreater(os.path.getsize(os.path.join(folder, name)), 100)
             pia.save(path, [model, quarter()])
             self.assertEqual([m.rational for m in pia.load_all(path)], [False, True])
+            part = os.path.join(folder, "part.step")
+            model.save(part, unit="m", schema="ap242", tolerance=1e-5, name="flange")
+            with open(part) as file:
+                text = file.read()
+            self.assertIn("flange", text)
+            self.assertIn("AP242", text)
+            self.assertRaisesRegex(ValueError, "unit", model.save, part, unit="mile")
             self.assertRaisesRegex(ValueError, "2 models", pia.load, path)
             self.assertRaisesRegex(ValueError, "extension", model.save, os.path.join(folder, "m.xyzzy"))
 
