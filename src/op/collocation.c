@@ -112,6 +112,16 @@ pia_index pia_collocation_span(const pia_collocation *c, pia_index row)
     return pia_knots_span_near(c->knots, c->degree, c->full, c->parameters[row], hint);
 }
 
+pia_index pia_collocation_own_span(const pia_collocation *c, pia_index row)
+{
+    double t = c->parameters[row];
+    pia_index span = row > c->degree ? row : c->degree;
+    if (span > c->last) span = c->last;
+    if (t < c->knots[span]) return -1;
+    while (span < c->last && span < row + c->degree && t >= c->knots[span + 1]) span++;
+    return span == c->last || t < c->knots[span + 1] ? span : -1;
+}
+
 pia_index pia_collocation_begin(const pia_collocation *c, pia_index span)
 {
     return span <= c->degree ? 0 : span > c->last ? c->rows : first_from(c, 0, c->knots[span]);

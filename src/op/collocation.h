@@ -39,6 +39,8 @@ void pia_collocation_rebucket(pia_collocation *c);
 const double *pia_collocation_row(const pia_collocation *c, pia_index row, pia_index span, double *scratch);
 /* Span of a row; O(log spans). */
 pia_index pia_collocation_span(const pia_collocation *c, pia_index row);
+/* Span of a row of a square matrix that holds its own unknown, at most `degree` knots further; -1 for others. O(degree). */
+pia_index pia_collocation_own_span(const pia_collocation *c, pia_index row);
 /* Span of a row, from that of a row before it. */
 static inline pia_index pia_collocation_advance(const pia_collocation *c, pia_index row, pia_index span)
 {

@@ -41,6 +41,14 @@ PIA_INLINE int pia_lanes_all(pia_lane_masks mask)
     return (mask[0] & mask[1] & mask[2] & mask[3]) != 0;
 }
 
+/* history [count x width] of the rows before, nearest first: takes one more. */
+PIA_INLINE void pia_lanes_remember(pia_lanes *history, int count, int width, const pia_lanes *row)
+{
+    for (int r = count - 1; r >= 1; r--)
+        for (int k = 0; k < width; k++) history[r * width + k] = history[(r - 1) * width + k];
+    for (int k = 0; k < width; k++) history[k] = row[k];
+}
+
 /* Basis values at t as pia_basis_values gives them, but with one division for each pair of neighbours: their quotients add up to 1,
  * and are exactly 0 and 1 at a knot. knot[k] is the knot at span - degree + 1 + k, k < 2 degree. */
 PIA_INLINE void pia_lanes_basis(const pia_lanes *knot, int degree, pia_lanes t, pia_lanes *value)

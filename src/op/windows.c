@@ -130,17 +130,6 @@ PIA_INLINE void load_group(const work *w, group *g, int dim)
 
 /* ---- the equations ---- */
 
-/* The span of a row that holds its own unknown, which is at most `degree` further; -1 for others. */
-static pia_index own_span(const pia_collocation *c, pia_index row)
-{
-    double t = c->parameters[row];
-    pia_index span = row > c->degree ? row : c->degree;
-    if (span > c->last) span = c->last;
-    if (t < c->knots[span]) return -1;
-    while (span < c->last && span < row + c->degree && t >= c->knots[span + 1]) span++;
-    return span == c->last || t < c->knots[span + 1] ? span : -1;
-}
-
 /* Rows one after the other on spans one after the other, as knots near the parameters have them: nothing has to be searched, and the
  * quotients of the basis need one division a degree. */
 typedef struct walk {
@@ -155,7 +144,7 @@ static int can_walk(const work *w, const group *g, walk *k)
     int degree = w->degree, at_knots = 1;
     if (c->values != NULL) return 0; /* nothing is to be computed */
     for (int l = 0; l < PIA_LANES; l++) {
-        pia_index span = own_span(c, g->low[l]);
+        pia_index span = pia_collocation_own_span(c, g->low[l]);
         if (span < 0) return 0;
         k->column[l] = span - degree;
         if (l > 0 && g->low[l] - k->column[l] != k->before) return 0;
@@ -202,7 +191,7 @@ PIA_INLINE int fill_searching(const work *w, const group *g, int degree)
     pia_lanes value[PIA_MAX_DEGREE + 1];
     int width = 2 * degree + 1, reach = 1;
     for (int l = 0; l < PIA_LANES; l++) {
-        span[l] = own_span(c, g->low[l]);
+        span[l] = pia_collocation_own_span(c, g->low[l]);
         if (span[l] < 0) return 0;
     }
     for (pia_index i = 0; i < g->size; i++) {
@@ -273,14 +262,6 @@ PIA_INLINE pia_lanes subtract_product(const group *g, const pia_lanes *row, cons
     return square;
 }
 
-/* history [count x width] of the rows before, nearest first: takes one more. */
-PIA_INLINE void remember(pia_lanes *history, int count, int width, const pia_lanes *row)
-{
-    for (int r = count - 1; r >= 1; r--)
-        for (int k = 0; k < width; k++) history[r * width + k] = history[(r - 1) * width + k];
-    for (int k = 0; k < width; k++) history[k] = row[k];
-}
-
 /* x = residual and its squares; Crout's elimination as in band_lu.c. Returns 0 where a pivot vanishes. The group is copied, because
  * what is written could overlap it as far as the compiler knows. */
 PIA_INLINE int go_down(const group *all, int degree, int reach, int dim)
@@ -303,8 +284,8 @@ PIA_INLINE int go_down(const group *all, int degree, int reach, int dim)
         pia_lanes inverse = 1 / row[reach];
         for (int j = 0; j < reach; j++) g->upper[i * reach + j] = u[j] = row[reach + 1 + j] * inverse;
         for (int d = 0; d < dim; d++) g->x[i * dim + d] = x[d] *= inverse;
-        remember(upper, reach, reach, u);
-        remember(above, reach, dim, x);
+        pia_lanes_remember(upper, reach, reach, u);
+        pia_lanes_remember(above, reach, dim, x);
     }
     return pia_lanes_all(good);
 }
@@ -319,7 +300,7 @@ PIA_INLINE void go_up(const group *all, int reach, int dim)
         for (int d = 0; d < dim; d++) x[d] = g->x[i * dim + d];
         for (int r = reach; r >= 1; r--)
             for (int d = 0; d < dim; d++) x[d] -= g->upper[i * reach + r - 1] * below[(r - 1) * dim + d];
-        remember(below, reach, dim, x);
+        pia_lanes_remember(below, reach, dim, x);
         for (int d = 0; d < dim; d++) {
             square += x[d] * x[d];
             g->x[i * dim + d] = g->point[i * dim + d] + x[d];
