@@ -179,7 +179,7 @@ static int run_peer(const settings *s, int peer, const char *path, const char *r
         dup2(silent, STDERR_FILENO);
         snprintf(program, sizeof program, "%s/peer_%s", s->directory, peer_names[peer]);
         if (strcmp(peer_names[peer], "scipy") == 0)
-            execlp("/usr/bin/python3", "python3", PIA_BENCH "/peers/peer_scipy.py", path, (char *)NULL);
+            execlp("/usr/bin/python3", "/usr/bin/python3", PIA_BENCH "/peers/peer_scipy.py", path, (char *)NULL);
         else
             execl(program, program, path, (char *)NULL);
         _exit(127);
