@@ -189,6 +189,8 @@ const double *pia_fit_row_weights(const pia_fit *fit);
 void pia_fit_mix_weights(pia_fit *fit);
 /* As pia_solve_step, in rounds between which rows are weighed anew. */
 pia_status pia_fit_robust_step(pia_fit *fit, pia_index iterations);
+/* Notes constraints on a direction that the curve meets in the opposite sense. */
+void pia_fit_describe_directions(pia_fit *fit);
 void pia_fit_describe_outliers(pia_fit *fit);
 /* Points or weights of these rows have changed: normal form and constraints follow. */
 pia_status pia_fit_refresh(pia_fit *fit, pia_index first_row, pia_index last_row);

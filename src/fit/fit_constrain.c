@@ -1,5 +1,6 @@
 /* Constraints of a fit: the list the caller keeps adding to and dropping from, and the rows it makes on the current operator. */
 #include "constraint.h"
+#include "evaluate.h"
 #include "fit.h"
 #include "options.h"
 
@@ -147,6 +148,43 @@ void pia_fit_measure_constraints(pia_fit *fit)
     pia_iterate *iterate = &fit->iterate;
     const pia_constraints *c = iterate->constraints != NULL ? iterate->constraints : fit->soft_constraints;
     iterate->constraint_error = c != NULL ? pia_constraints_violation(c, iterate->points, NULL) : NAN;
+}
+
+static int asks_direction(const pia_fit_constraint *c)
+{
+    return !c->released && c->asked.direction_only && c->value != NULL && c->asked.derivative[0] <= PIA_MAX_DEGREE;
+}
+
+/* Whether the derivative of a curve points away from the direction asked: the condition is linear and cannot tell the two senses apart.
+ */
+static int is_backwards(const pia_fit *fit, const pia_model *model, const pia_fit_constraint *c)
+{
+    double rows[(PIA_MAX_DEGREE + 1) * PIA_MAX_DIM], t[2] = {c->asked.at_parameter[0], 0}, along = 0;
+    int order = c->asked.derivative[0];
+    pia_index hint[2] = {0, 0};
+    if (c->asked.at_point != PIA_AUTO)
+        t[0] = fit->parameter[0][pia_fit_row(fit, c->asked.at_point)];
+    else
+        fold(fit, t);
+    pia_evaluate(model, t, order, hint, rows);
+    for (int d = 0; d < fit->dim; d++) along += rows[order * fit->dim + d] * c->value[d];
+    return along < 0;
+}
+
+void pia_fit_describe_directions(pia_fit *fit)
+{
+    pia_model *model;
+    pia_index list[PIA_LISTED], count = 0, asked = 0;
+    for (pia_index i = 0; i < fit->constraint_count; i++) asked += asks_direction(&fit->constraint[i]);
+    if (asked == 0 || fit->directions != 1 || fit->function_graph || pia_fit_bare_model(fit, &model) != PIA_OK) return;
+    for (pia_index i = 0; i < fit->constraint_count; i++) {
+        if (!asks_direction(&fit->constraint[i]) || !is_backwards(fit, model, &fit->constraint[i])) continue;
+        if (count < PIA_LISTED) list[count] = i - fit->options.interpolate_count;
+        count++;
+    }
+    if (count > 0)
+        pia_fit_outcome_add(fit, "constraints whose direction is met the other way round, by their place in the list", list, count);
+    pia_model_destroy(model);
 }
 
 static int knows_constraints(const pia_fit *fit)

@@ -46,6 +46,7 @@ void pia_fit_conclude(pia_fit *fit)
 {
     pia_notes_clear(pia_memory_of(fit->context), &fit->outcome);
     describe_shape(fit);
+    pia_fit_describe_directions(fit);
     pia_fit_describe_outliers(fit);
     if (fit->iterate.groups != NULL) pia_epia_outcome(fit);
     pia_fit_describe_support(fit);

@@ -129,7 +129,7 @@ static pia_status read_spline(reader *r, pia_model **out)
 
 static pia_status read_error(reader *r)
 {
-    pia_index length;
+    pia_index length = 0;
     pia_status status = read_integers(r, &length, 1);
     if (status != PIA_OK || length < 0 || length > r->end - r->at) return fail_cut(r);
     char text[301];
