@@ -3,7 +3,7 @@
  *   fit_choice.c      which method, parametrization, placement       fit_open.c     the pipeline itself; open and close
  *   fit_parameters.c  parameters of the rows                         fit_result.c   report, residuals, model
  *   fit_knots.c       knots and operators                            fit_edit.c     edits of a running fit
- *   fit_foot.c        parameters moved to foot points                fit_call.c     the one call
+ *   fit_foot*.c       parameters moved to foot points                fit_call.c     the one call
  *   fit_constrain.c   points and derivatives met exactly             fit_outcome.c  what is worth saying of the result
  *   fit_robust.c      weights of a robust loss                       fit_epia.c     groups and knot insertion of [2011]
  *   fit_noise.c       a tolerance that the noise suggests            fit_dominant.c Park's dominant columns
@@ -66,7 +66,7 @@ struct pia_fit {
     int square; /* interpolation */
     int degree[2], closed[2];
     const pia_parametrization *parametrization; /* NULL: given, or of a cloud */
-    const pia_cloud *cloud;                     /* of scattered points; NULL: given */
+    const pia_cloud *cloud;                     /* of scattered points; NULL: given, or still to be chosen */
     const pia_placement *placement;             /* NULL: given */
     double *parameter[2];                       /* [count] a direction; scattered: u,v pairs in [0]; owned unless borrowed_parameters */
     int borrowed_parameters;
@@ -122,6 +122,8 @@ pia_status pia_fit_take_corners(pia_fit *fit);
 pia_status pia_fit_parametrize(pia_fit *fit, const pia_data *data);
 /* The error of given parameters [count] that are not good. */
 pia_status pia_fit_refuse_parameters(pia_fit *fit, const double *given, int direction, pia_index count);
+/* Which base surface suits scattered points best: fit->cloud. Errors: PIA_E_DATA where none does. */
+pia_status pia_fit_choose_base(pia_fit *fit);
 pia_status pia_fit_place(pia_fit *fit);
 pia_status pia_fit_operate(pia_fit *fit);
 /* Whether the operator's interpolating curve is found in one step, from data to control points, and nobody asks for what was before. */
@@ -154,6 +156,19 @@ int pia_fit_wants_correction(const pia_fit *fit);
 pia_status pia_fit_correct(pia_fit *fit);
 /* Moves the parameters of a curve to the closest points of the iterate nearby, never past the middle to a neighbour. */
 pia_status pia_fit_project(pia_iterate *iterate);
+/* The same for scattered rows, never past a fold of the surface; the operator is stale until the fit is assembled again. */
+pia_status pia_fit_project_surface(pia_iterate *iterate);
+/* Numbers in the parameters: one a row, of a grid one a line, of scattered rows two. */
+pia_index pia_fit_parameter_count(const pia_fit *fit);
+/* Parameters and control points to come back to, and the weighted squares they leave. Errors: PIA_E_MEMORY, with nothing to drop. */
+typedef struct pia_fit_kept {
+    double *parameters, *points;
+    double squares;
+} pia_fit_kept;
+pia_status pia_fit_keep(pia_fit *fit, pia_fit_kept *kept);
+/* Parameters, then `assemble`, then control points. */
+pia_status pia_fit_take_back(pia_fit *fit, const pia_fit_kept *kept, pia_status (*assemble)(pia_fit *fit));
+void pia_fit_keep_drop(pia_fit *fit, pia_fit_kept *kept);
 
 /* Opens without a copy of the data where the method allows: data outlives the fit. */
 pia_status pia_fit_borrow(pia_context *context, const pia_data *data, const pia_fit_options *options, pia_fit **out);

@@ -5,6 +5,10 @@
 #include <math.h>
 #include <string.h>
 
+/* Fairing of scattered points that are refined: little beside what their deviations feel, enough to keep what they do not hold near
+ * them. */
+static const double BRIDGING = 1e-3;
+
 static void copy_name(char *to, size_t size, const char *name)
 {
     size_t length = name != NULL ? strlen(name) : 0;
@@ -130,6 +134,10 @@ static const char *automatic(pia_fit *fit)
 
 static pia_status check_fairing(pia_fit *fit)
 {
+    if (fit->refining && fit->kind == PIA_SCATTERED && fit->options.fairing == 0 && fit->degree[0] + fit->degree[1] > 2) {
+        fit->options.fairing = BRIDGING;
+        pia_fit_note_add(fit, "method: fairing %g, which bridges regions without points", BRIDGING);
+    }
     if (!(fit->options.fairing > 0)) return PIA_OK;
     if (fit->square || pia_fit_is_grouped(fit))
         return pia_fail(fit->context, PIA_E_ARGUMENT, "method %s leaves fairing no freedom; use direct, lspia or cg",
@@ -286,11 +294,12 @@ pia_status pia_fit_choose(pia_fit *fit)
     const char *name = fit->options.parametrization;
     if (status != PIA_OK || fit->parameter[0] != NULL) return status;
     if (fit->kind == PIA_SCATTERED) {
-        fit->cloud = pia_cloud_find(name != NULL ? name : "plane");
+        if (name == NULL || strcmp(name, "auto") == 0) return PIA_OK;
+        fit->cloud = pia_cloud_find(name);
         return fit->cloud != NULL
                    ? PIA_OK
                    : pia_fail(fit->context, PIA_E_ARGUMENT,
-                              "parametrization %s is not one of scattered points; there are xy, plane, cylinder, sphere", name);
+                              "parametrization %s is not one of scattered points; there are auto, xy, plane, cylinder, sphere", name);
     }
     if (name != NULL && pia_cloud_find(name) != NULL)
         return pia_fail(fit->context, PIA_E_ARGUMENT, "parametrization %s is one of scattered points (--surface)", name);

@@ -7,46 +7,40 @@
 
 enum { NEWTON_STEPS = 3 };
 
-/* What a round may have to be taken back to. */
-typedef struct kept {
-    double *parameters, *points;
-    double squares; /* weighted, what the fit makes small */
-} kept;
-
-static void drop(pia_fit *fit, kept *k)
+void pia_fit_keep_drop(pia_fit *fit, pia_fit_kept *kept)
 {
-    pia_give(fit->context, k->parameters);
-    pia_give(fit->context, k->points);
+    pia_give(fit->context, kept->parameters);
+    pia_give(fit->context, kept->points);
 }
 
-static pia_status keep(pia_fit *fit, kept *k)
+pia_status pia_fit_keep(pia_fit *fit, pia_fit_kept *kept)
 {
-    pia_index size = fit->op->cols * fit->dim;
+    pia_index size = fit->op->cols * fit->dim, count = pia_fit_parameter_count(fit);
     pia_iterate_measure(&fit->iterate);
-    *k = (kept){pia_take(fit->context, fit->rows, sizeof(double)), pia_take(fit->context, size, sizeof(double)),
-                fit->iterate.errors.weighted};
-    if (k->parameters == NULL || k->points == NULL) {
-        drop(fit, k);
+    *kept = (pia_fit_kept){pia_take(fit->context, count, sizeof(double)), pia_take(fit->context, size, sizeof(double)),
+                           fit->iterate.errors.weighted};
+    if (kept->parameters == NULL || kept->points == NULL) {
+        pia_fit_keep_drop(fit, kept);
         return PIA_E_MEMORY;
     }
-    memcpy(k->parameters, fit->parameter[0], (size_t)fit->rows * sizeof(double));
-    memcpy(k->points, fit->iterate.points, (size_t)size * sizeof(double));
+    memcpy(kept->parameters, fit->parameter[0], (size_t)count * sizeof(double));
+    memcpy(kept->points, fit->iterate.points, (size_t)size * sizeof(double));
     return PIA_OK;
 }
 
-static pia_status take_back(pia_fit *fit, const kept *k)
+pia_status pia_fit_take_back(pia_fit *fit, const pia_fit_kept *kept, pia_status (*assemble)(pia_fit *fit))
 {
-    memcpy(fit->parameter[0], k->parameters, (size_t)fit->rows * sizeof(double));
-    pia_status status = pia_fit_reassemble(fit);
-    if (status == PIA_OK) memcpy(fit->iterate.points, k->points, (size_t)(fit->op->cols * fit->dim) * sizeof(double));
+    memcpy(fit->parameter[0], kept->parameters, (size_t)pia_fit_parameter_count(fit) * sizeof(double));
+    pia_status status = assemble(fit);
+    if (status == PIA_OK) memcpy(fit->iterate.points, kept->points, (size_t)(fit->op->cols * fit->dim) * sizeof(double));
     fit->iterate.errors_known = 0;
     return status;
 }
 
 static pia_status correct_once(pia_fit *fit, pia_stop *stop, int *better)
 {
-    kept before;
-    pia_status status = keep(fit, &before);
+    pia_fit_kept before;
+    pia_status status = pia_fit_keep(fit, &before);
     if (status != PIA_OK) return status;
     for (int newton = 0; newton < NEWTON_STEPS && status == PIA_OK; newton++) status = fit->iterate.project(&fit->iterate);
     if (status == PIA_OK) status = pia_fit_reassemble(fit);
@@ -55,10 +49,10 @@ static pia_status correct_once(pia_fit *fit, pia_stop *stop, int *better)
         pia_iterate_measure(&fit->iterate);
         *better = fit->iterate.errors.weighted < before.squares;
         *stop = *better ? fit->solve.stop : *stop;
-        if (!*better) status = take_back(fit, &before);
+        if (!*better) status = pia_fit_take_back(fit, &before, pia_fit_reassemble);
         fit->solve.stop = *stop;
     }
-    drop(fit, &before);
+    pia_fit_keep_drop(fit, &before);
     return status;
 }
 

@@ -112,6 +112,7 @@ static pia_status take_iterate(pia_fit *fit)
         if (iterate->residual == NULL) return PIA_E_MEMORY;
     }
     if (fit->directions == 1 && !fit->borrowed_parameters && !fit->function_graph) iterate->project = pia_fit_project;
+    if (fit->kind == PIA_SCATTERED) iterate->project = pia_fit_project_surface;
     return PIA_OK;
 }
 

@@ -165,17 +165,19 @@ static pia_status separate(pia_fit *fit, int direction)
     return status;
 }
 
-/* Scattered points on the base surface that was asked for. */
+/* Scattered points on the base surface that was asked for, or on the one that suits them. */
 static pia_status parametrize_cloud(pia_fit *fit)
 {
-    int around;
-    if (fit->rows < 3 || fit->dim < fit->cloud->dim)
+    int around, least = fit->cloud != NULL ? fit->cloud->dim : 2;
+    if (fit->rows < 3 || fit->dim < least)
         return pia_fail(fit->context, PIA_E_DATA,
-                        "parametrization %s needs at least three points of %d components; these are %lld of %d", fit->cloud->name,
-                        fit->cloud->dim, (long long)fit->rows, fit->dim);
+                        "parametrization %s needs at least three points of %d components; these are %lld of %d",
+                        fit->cloud != NULL ? fit->cloud->name : "auto", least, (long long)fit->rows, fit->dim);
+    pia_status status = fit->cloud != NULL ? PIA_OK : pia_fit_choose_base(fit);
+    if (status != PIA_OK) return status;
     fit->parameter[0] = pia_take(fit->context, 2 * fit->rows, sizeof(double));
     if (fit->parameter[0] == NULL) return PIA_E_MEMORY;
-    pia_status status = fit->cloud->compute(fit->context, fit->points, fit->rows, fit->dim, fit->parameter[0], &around);
+    status = fit->cloud->compute(fit->context, fit->points, fit->rows, fit->dim, fit->parameter[0], &around);
     if (status == PIA_OK && around) {
         fit->closed[0] = 1;
         pia_fit_note_add(fit, "direction u is closed: the points go all the way round the %s", fit->cloud->name);

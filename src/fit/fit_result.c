@@ -121,7 +121,7 @@ pia_status pia_fit_residuals(pia_fit *fit, double *out)
     return PIA_OK;
 }
 
-static pia_index parameter_count(const pia_fit *fit)
+pia_index pia_fit_parameter_count(const pia_fit *fit)
 {
     return fit->kind == PIA_CURVE ? fit->rows : fit->kind == PIA_GRID ? fit->count[0] + fit->count[1] : 2 * fit->rows;
 }
@@ -137,7 +137,7 @@ static void copy_parameters(const pia_fit *fit, double *out)
 pia_status pia_fit_parameters(pia_fit *fit, const double **parameters, pia_index *count, const pia_index **row)
 {
     *parameters = fit->parameter[0];
-    *count = parameter_count(fit);
+    *count = pia_fit_parameter_count(fit);
     if (fit->kind == PIA_GRID) {
         if (fit->all_parameters == NULL) fit->all_parameters = pia_take(fit->context, *count, sizeof(double));
         if (fit->all_parameters == NULL) return PIA_E_MEMORY;

@@ -55,7 +55,8 @@ pia_status pia_refine(pia_fit *fit, pia_index iterations)
     if (fit->solve.stop == PIA_STOP_NO_KNOT_LEFT)
         pia_fit_note_add(fit, "the tolerance cannot be had with these parameters%s: no knot is left that the data could hold; %g can",
                          fit->constraint_count > 0 ? " and constraints" : "", fit->iterate.errors.max);
-    if (fit->solve.stop != PIA_STOP_NONE) status = pia_fit_bind(fit);
+    if (fit->solve.stop == PIA_STOP_NO_KNOT_LEFT) status = pia_refine_explain(fit);
+    if (status == PIA_OK && fit->solve.stop != PIA_STOP_NONE) status = pia_fit_bind(fit);
     if (status != PIA_OK) return status;
     fit->solve.seconds = pia_seconds() - fit->began;
     return fit->solve.rules.trace_every > 0 ? pia_solve_trace(&fit->solve) : PIA_OK;

@@ -66,6 +66,18 @@ int pia_refine_stopped(pia_fit *fit);
 /* Counts a round that has just been done, and traces it. */
 pia_status pia_refine_count(pia_fit *fit);
 
+/* Of growth: whether it still helps. Starts as zeroes. Scattered points only; for others always 1. */
+typedef struct pia_watch {
+    double worst, squares; /* when it last did */
+    int idle;              /* rounds since */
+} pia_watch;
+int pia_refine_helps(const pia_fit *fit, pia_watch *watch);
+/* Scattered points whose true distance counts: parameters to the foot points, and least squares there. Taken back, with *better 0,
+ * where that brings nothing, or loses the tolerance. */
+pia_status pia_refine_move_to_feet(pia_fit *fit, int *better);
+/* A note that says why the tolerance cannot be had by scattered points. */
+pia_status pia_refine_explain(pia_fit *fit);
+
 /* Replaces the knots of a curve by `knots` (borrowed; open: control + degree + 1, closed: one period of `control` knots) and rebuilds
  * operator and normal form. The control points are left undefined. */
 pia_status pia_refine_install(pia_fit *fit, const double *knots, pia_index control);

@@ -5,7 +5,7 @@
 #include <math.h>
 #include <string.h>
 
-enum { MAX_GROWTH = 60, MAX_CYCLES = 3 };
+enum { MAX_GROWTH = 60, MAX_CYCLES = 3, MAX_FEET = 20 };
 
 /* A strip is split when it deviates at least this share of what the worst one does. */
 static const double SHARE = 0.25;
@@ -126,16 +126,22 @@ pia_status pia_refine_surface(pia_fit *fit)
 {
     pia_status status = fit->round == 0 ? pia_refine_solve(fit) : PIA_OK;
     if (status == PIA_OK && fit->round == 0 && fit->solve.rules.trace_every > 0) status = pia_solve_trace(&fit->solve);
-    int more = 1;
+    pia_watch watch = {0};
+    int more = 1, better = 1;
     for (int k = 0; k < MAX_GROWTH && status == PIA_OK && more && !pia_refine_reached(fit) && !pia_refine_stopped(fit); k++) {
         status = grow(fit, &more);
+        if (status == PIA_OK && more) status = pia_refine_move_to_feet(fit, &better);
         if (status == PIA_OK) status = pia_refine_relax(fit);
         if (status == PIA_OK && more) status = pia_refine_count(fit);
+        more = more && status == PIA_OK && pia_refine_helps(fit, &watch);
     }
+    for (int k = 0; k < MAX_FEET && status == PIA_OK && better && !pia_refine_reached(fit) && !pia_refine_stopped(fit); k++)
+        status = pia_refine_move_to_feet(fit, &better);
     if (status == PIA_OK && !pia_refine_reached(fit) && !pia_refine_stopped(fit)) status = pia_refine_interpolate(fit);
     pia_index spared = status == PIA_OK && pia_refine_reached(fit);
     for (int cycle = 0; cycle < MAX_CYCLES && spared > 0 && status == PIA_OK && !pia_refine_stopped(fit); cycle++) {
         status = pia_refine_spare_lines(fit, &spared);
+        if (status == PIA_OK) status = pia_refine_move_to_feet(fit, &better);
         if (status == PIA_OK) status = pia_refine_count(fit);
     }
     return status;

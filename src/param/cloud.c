@@ -80,11 +80,48 @@ static double along(const double *point, const double mean[3], const double axis
     return (point[0] - mean[0]) * axis[0] + (point[1] - mean[1]) * axis[1] + (point[2] - mean[2]) * axis[2];
 }
 
+/* Area of the rectangle along two axes, turned by an angle, around every few of the points. */
+static double box_area(const double *points, pia_index count, int dim, const double mean[3], double axes[3][3], double angle)
+{
+    enum { LOOKED_AT = 4000 };
+    double c = cos(angle), s = sin(angle), low[2] = {INFINITY, INFINITY}, high[2] = {-INFINITY, -INFINITY};
+    for (pia_index i = 0; i < count; i += 1 + count / LOOKED_AT) {
+        double x = along(points + i * dim, mean, axes[0]), y = along(points + i * dim, mean, axes[1]);
+        const double turned[2] = {c * x + s * y, c * y - s * x};
+        for (int d = 0; d < 2; d++) {
+            low[d] = fmin(low[d], turned[d]);
+            high[d] = fmax(high[d], turned[d]);
+        }
+    }
+    return (high[0] - low[0]) * (high[1] - low[1]);
+}
+
+/* The principal axes of a square cloud are any; those of its smallest box leave fewer empty corners, and are taken when they save a
+ * tenth. */
+static void turn_to_box(const double *points, pia_index count, int dim, const double mean[3], double axes[3][3])
+{
+    enum { ANGLES = 36 };
+    const double quarter = acos(0);
+    double best = 0.9 * box_area(points, count, dim, mean, axes, 0), angle = 0;
+    for (int k = 1; k < ANGLES; k++) {
+        double area = box_area(points, count, dim, mean, axes, k * quarter / ANGLES);
+        if (!(area < best)) continue;
+        best = area;
+        angle = k * quarter / ANGLES;
+    }
+    for (int e = 0; e < 3 && angle > 0; e++) {
+        double x = axes[0][e], y = axes[1][e];
+        axes[0][e] = cos(angle) * x + sin(angle) * y;
+        axes[1][e] = cos(angle) * y - sin(angle) * x;
+    }
+}
+
 static pia_status by_plane(pia_context *context, const double *points, pia_index count, int dim, double *uv, int *closed)
 {
     *closed = 0;
     double mean[3], axes[3][3], spread[3];
     principal_axes(points, count, dim, mean, axes, spread);
+    turn_to_box(points, count, dim, mean, axes);
     for (pia_index i = 0; i < count; i++)
         for (int d = 0; d < 2; d++) uv[2 * i + d] = along(points + i * dim, mean, axes[d]);
     return to_unit(context, uv, count, "best plane");
@@ -214,17 +251,51 @@ static pia_status by_cylinder(pia_context *context, const double *points, pia_in
     return PIA_OK;
 }
 
-/* Around the centre of the best sphere, poles along the shortest principal axis: u the share of the turn, v the height as an angle. */
+/* Where the points cover one side of the sphere, the poles go to where they are not: `axes` become two of the equator, the first
+ * towards the points, and the poles, across which the points reach least far. */
+static void turn_to_side(const double centre[3], double radius, double axes[3][3])
+{
+    double side[3] = {-centre[0], -centre[1], -centre[2]}, length = sqrt(side[0] * side[0] + side[1] * side[1] + side[2] * side[2]);
+    if (!(length > radius / 4)) return;
+    int across = fabs(side[2]) > 0.9 * length ? 1 : 2;
+    double pole[3] = {0}, turned[3][3], size = 0;
+    pole[across] = 1;
+    for (int d = 0; d < 3; d++) {
+        side[d] /= length;
+        pole[d] -= side[d] * (-centre[across] / length);
+        size += pole[d] * pole[d];
+    }
+    for (int d = 0; d < 3; d++) pole[d] /= sqrt(size);
+    double third[3] = {pole[1] * side[2] - pole[2] * side[1], pole[2] * side[0] - pole[0] * side[2],
+                       pole[0] * side[1] - pole[1] * side[0]};
+    for (int e = 0; e < 3; e++) {
+        turned[0][e] = turned[1][e] = turned[2][e] = 0;
+        for (int d = 0; d < 3; d++) {
+            turned[0][e] += side[d] * axes[d][e];
+            turned[1][e] += third[d] * axes[d][e];
+            turned[2][e] += pole[d] * axes[d][e];
+        }
+    }
+    memcpy(axes, turned, sizeof turned);
+}
+
+/* Around the centre of the best sphere: u the share of the turn, v the height as an angle. */
 static pia_status by_sphere(pia_context *context, const double *points, pia_index count, int dim, double *uv, int *closed)
 {
-    double mean[3], axes[3][3], spread[3], centre[3];
+    double mean[3], axes[3][3], spread[3], centre[3], middle[3], radius = 0;
     principal_axes(points, count, dim, mean, axes, spread);
     double scale = sqrt(spread[0] / (double)count);
     if (!(scale > 0) || !best_centre(points, count, dim, mean, axes, 3, scale, centre))
         return pia_fail(context, PIA_E_DATA, "the points lie on no sphere; use --param plane");
+    for (int e = 0; e < 3; e++) middle[e] = mean[e] + centre[0] * axes[0][e] + centre[1] * axes[1][e] + centre[2] * axes[2][e];
+    for (pia_index i = 0; i < count; i++) {
+        const double *p = points + i * dim;
+        radius += hypot(hypot(p[0] - middle[0], p[1] - middle[1]), p[2] - middle[2]) / (double)count;
+    }
+    turn_to_side(centre, radius, axes);
     for (pia_index i = 0; i < count; i++) {
         double x[3];
-        for (int d = 0; d < 3; d++) x[d] = along(points + i * dim, mean, axes[d]) - centre[d];
+        for (int d = 0; d < 3; d++) x[d] = along(points + i * dim, middle, axes[d]);
         uv[2 * i] = turn_share(x[1], x[0]);
         uv[2 * i + 1] = 0.5 + atan2(x[2], hypot(x[0], x[1])) / acos(-1);
     }
@@ -238,7 +309,7 @@ static const pia_cloud rule[] = {
     {"cylinder", "scattered points: turn and height about their best axis", NULL, "u is closed where the points go all the way round",
      3, by_cylinder},
     {"sphere", "scattered points: longitude and latitude about their best centre", NULL,
-     "poles along the shortest axis; u is closed where the points go all the way round", 3, by_sphere},
+     "poles where the points are not, or along their shortest axis; u is closed where the points go all the way round", 3, by_sphere},
 };
 
 const pia_cloud *pia_cloud_list(pia_index index)

@@ -46,6 +46,19 @@ static problem grid_problem(void)
     return p;
 }
 
+/* Few of these points without their order, whose true distance counts: the base is chosen and parameters move. */
+static problem cloud_problem(void)
+{
+    problem p = grid_problem();
+    p.data.kind = PIA_SCATTERED;
+    p.data.count[0] = 24;
+    p.data.count[1] = 1;
+    p.options.degree[0] = p.options.degree[1] = 2;
+    for (int i = 0; i < 24; i++)
+        for (int d = 0; d < 3; d++) p.points[3 * i + d] = p.points[3 * (15 * i) + d];
+    return p;
+}
+
 static pia_status fit(pia_context *context, void *user)
 {
     problem *p = user;
@@ -99,6 +112,19 @@ static void constraints_survive_every_failure(void **state)
     }
 }
 
+/* Two sheets over each other: the tolerance cannot be had, and the reason needs memory as well. */
+static void a_cloud_survives_every_failure(void **state)
+{
+    (void)state;
+    problem p = cloud_problem();
+    for (int i = 0; i < 24; i += 2) {
+        memcpy(&p.points[3 * i + 3], &p.points[3 * i], 2 * sizeof(double));
+        p.points[3 * i + 5] = p.points[3 * i + 2] + 5;
+    }
+    p.options.tolerance = 0.5;
+    assert_survives_failures(fit, &p);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -106,6 +132,7 @@ int main(void)
         cmocka_unit_test(a_curve_with_corners_survives_every_failure),
         cmocka_unit_test(constraints_survive_every_failure),
         cmocka_unit_test(a_surface_survives_every_failure),
+        cmocka_unit_test(a_cloud_survives_every_failure),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,0 +1,72 @@
+/* What refining scattered points needs beside knots: parameters at foot points, an end to growth that no longer helps, and a reason
+ * where the tolerance cannot be had. */
+#include "refine.h"
+
+#include "overlap.h"
+
+#include <math.h>
+
+enum { PATIENCE = 4 };
+
+/* Growth helps while the largest ratio or the RMS deviation falls by this factor within PATIENCE rounds. */
+static const double HELPS = 0.97;
+
+int pia_refine_helps(const pia_fit *fit, pia_watch *watch)
+{
+    double worst = pia_refine_worst(fit, 0, fit->rows), squares = fit->iterate.errors.sum_squares;
+    if (fit->kind != PIA_SCATTERED) return 1;
+    if (fit->op->cols >= fit->rows) return 0;
+    watch->idle++;
+    if (watch->worst == 0 || worst < HELPS * watch->worst || squares < HELPS * HELPS * watch->squares) watch->idle = 0;
+    if (watch->idle > 0) return watch->idle < PATIENCE;
+    watch->worst = worst;
+    watch->squares = squares;
+    return 1;
+}
+
+pia_status pia_refine_move_to_feet(pia_fit *fit, int *better)
+{
+    pia_fit_kept before;
+    *better = 0;
+    if (fit->kind != PIA_SCATTERED || !fit->options.measure_distance) return PIA_OK;
+    int held = pia_refine_reached(fit);
+    pia_status status = pia_fit_keep(fit, &before);
+    if (status != PIA_OK) return status;
+    status = fit->iterate.project(&fit->iterate);
+    if (status == PIA_OK) status = pia_fit_assemble(fit);
+    if (status == PIA_OK) status = pia_refine_solve(fit);
+    if (status == PIA_OK && held) status = pia_refine_relax(fit);
+    if (status == PIA_OK) {
+        *better = held ? pia_refine_reached(fit) : fit->iterate.errors.weighted < before.squares;
+        if (!*better) status = pia_fit_take_back(fit, &before, pia_fit_assemble);
+        if (!*better && status == PIA_OK && !held) status = pia_refine_solve(fit); /* the same fit, with its factors */
+        pia_iterate_measure(&fit->iterate);
+    }
+    pia_fit_keep_drop(fit, &before);
+    return status;
+}
+
+pia_status pia_refine_explain(pia_fit *fit)
+{
+    pia_overlap overlap;
+    const double *points = fit->points;
+    if (fit->kind != PIA_SCATTERED) return PIA_OK;
+    pia_status status = pia_overlap_find(fit->context, fit->parameter[0], points, fit->rows, fit->dim, &overlap);
+    if (status != PIA_OK) return status;
+    double allowed = fmin(pia_refine_allowed(fit, overlap.row[0]), pia_refine_allowed(fit, overlap.row[1]));
+    const pia_index *row = fit->row;
+    if (overlap.distance > 2 * allowed)
+        pia_fit_note_add(
+            fit,
+            "rows %lld and %lld are %g apart at nearly the same parameters (%.4g, %.4g): there the points are no graph over "
+            "their base (an overhang, a wall, outliers); another --param, or --measure distance, may do",
+            (long long)(row != NULL ? row[overlap.row[0]] : overlap.row[0]),
+            (long long)(row != NULL ? row[overlap.row[1]] : overlap.row[1]), overlap.distance, fit->parameter[0][2 * overlap.row[0]],
+            fit->parameter[0][2 * overlap.row[0] + 1]);
+    else if (fit->op->cols >= fit->rows)
+        pia_fit_note_add(fit, "there are as many control points as points: more points, or a larger tolerance, are needed");
+    else
+        pia_fit_note_add(fit, "finer knots no longer bring the surface closer: what is left is noise, or relief finer than the points "
+                              "are dense; --robust huber lets outliers go");
+    return PIA_OK;
+}
