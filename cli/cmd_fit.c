@@ -45,7 +45,8 @@ static int run_parts(struct fit_job *job)
 static int write_and_tell(struct fit_job *job)
 {
     double begin = seconds_now();
-    int code = fit_outputs_write(job);
+    int code = fit_trim(job);
+    if (!code) code = fit_outputs_write(job);
     job->write_seconds = seconds_now() - begin;
     return code ? code : fit_summary_print(job);
 }

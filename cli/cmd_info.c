@@ -55,16 +55,13 @@ static const char manual[] = "What a file of points or models holds.\v"
                              "  pia info model.json --json";
 static const struct argp argp = {options, parse, "FILE", manual, children, NULL, NULL};
 
-/* Formats that hold nothing but models; all others are points unless --model says otherwise. */
+/* Others are points unless --model says otherwise. */
 static int is_model(const struct request *request)
 {
-    static const char *const formats[] = {"json", "igs", "iges", "stp", "step", "brep", "brp", "g2"};
-    const char *path = request->source.path, *name = request->format ? request->format : extension_of(path);
+    const char *path = request->source.path;
     if (request->as != BY_NAME) return request->as == MODEL;
     if (strcmp(path, "-") == 0 && !request->format) return stdin_peek() == '{';
-    for (size_t i = 0; i < sizeof formats / sizeof *formats; i++)
-        if (strcasecmp(name, formats[i]) == 0) return 1;
-    return 0;
+    return is_model_name(path, request->format);
 }
 
 int cmd_info(struct session *session, int argc, char **argv)

@@ -18,6 +18,15 @@ const char *extension_of(const char *path)
     return dot ? dot + 1 : "";
 }
 
+int is_model_name(const char *path, const char *format)
+{
+    static const char *const formats[] = {"json", "igs", "iges", "stp", "step", "brep", "brp", "g2"};
+    const char *name = format ? format : extension_of(path);
+    for (size_t i = 0; i < sizeof formats / sizeof *formats; i++)
+        if (strcasecmp(name, formats[i]) == 0) return 1;
+    return 0;
+}
+
 const char *format_of(const char *path, const char *format, const char *otherwise)
 {
     return format || *extension_of(path) ? format : otherwise;

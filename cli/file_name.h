@@ -12,6 +12,8 @@ const char *extension_of(const char *path);
 int is_picture(const char *path, const char *format);
 /* 1: pia_page_write writes it. */
 int is_page(const char *path, const char *format);
+/* 1: of a format that holds nothing but models, by `format` or by the extension when format is NULL. */
+int is_model_name(const char *path, const char *format);
 /* The format asked for; for a file with no extension, such as a standard stream or a device, `otherwise`; NULL: the extension tells. */
 const char *format_of(const char *path, const char *format, const char *otherwise);
 /* "model.json" and "1e-3" give "model.1e-3.json", kept by the session. */

@@ -1,6 +1,6 @@
 /* pia fit, from request to outputs: job_options.c reads the command line into a fit_request, job_setup.c makes the library's data and
- * options of it, job_run.c runs them, job_output.c writes the files, job_report.c the report among them, job_summary.c tells the
- * result. */
+ * options of it (job_base.c parameters from a base surface), job_run.c runs them, job_trim.c ends surfaces where their points do,
+ * job_output.c writes the files, job_report.c the report among them, job_summary.c tells the result. */
 #ifndef PIA_CLI_FIT_JOB_H
 #define PIA_CLI_FIT_JOB_H
 
@@ -23,6 +23,8 @@ struct fit_request {
     const char *interpolate, *constraints, *corners, *freeze;
     const char *weights, *tolerances;
     const char *closed; /* "", "u", "v" or "uv" */
+    const char *trim;   /* "alpha", "hull" or "none"; NULL: alpha for scattered points */
+    double trim_radius; /* 0: from the spacing */
     const char *format; /* --format: of the file that it turns out to mean */
     const char *output_format;
     struct texts outputs; /* -o */
@@ -78,6 +80,8 @@ int fit_request_parse(struct fit_request *request, struct session *session, int 
 /* job_setup.c: reads the points and the files that options name; then one task for each part. */
 int fit_inputs_open(struct fit_job *job);
 void fit_inputs_close(struct fit_job *job);
+/* job_base.c: the parameters of scattered points from a base surface. */
+int fit_base_open(struct fit_job *job, const char *path);
 int fit_task_open(struct fit_job *job, pia_index part, struct fit_task *out);
 void fit_task_close(struct fit_task *task);
 
@@ -85,6 +89,9 @@ void fit_task_close(struct fit_task *task);
 int fit_run_task(struct fit_job *job, const struct fit_task *task, struct fit_result *result);
 int fit_run_resumed(struct fit_job *job, struct fit_result *result);
 void fit_result_close(struct fit_result *result);
+
+/* job_trim.c: trimmed models in place of those of scattered points, as --trim says. */
+int fit_trim(struct fit_job *job);
 
 /* job_dry_run.c: says what would be done, and does nothing. */
 int fit_dry_run(struct fit_job *job, const struct fit_task *task);

@@ -13,6 +13,8 @@ enum {
     KEY_PARAM,
     KEY_CLOSED,
     KEY_START,
+    KEY_TRIM,
+    KEY_TRIM_RADIUS,
     KEY_TOLERANCE,
     KEY_POINT_TOLERANCE,
     KEY_MEASURE,
@@ -62,18 +64,21 @@ static const char *take_word(struct argp_state *state, const char *words)
 static const struct argp_option model_options[] = {
     {NULL, 0, NULL, 0, "The model:", 20},
     {"curve", KEY_CURVE, NULL, 0, "a curve through the rows in order (default for rows of points)", 0},
-    {"surface", KEY_SURFACE, NULL, 0, "a surface over scattered points; needs --param", 0},
+    {"surface", KEY_SURFACE, NULL, 0, "a surface over scattered points", 0},
     {"fit-function", KEY_FUNCTION, NULL, 0, "a function graph: the first column is the parameter, in any order", 0},
     {"degree", KEY_DEGREE, "P[,Q]", 0, "degree, of a surface in u and v (default 3)", 0},
     {"control", KEY_CONTROL, "N[,M]", 0, "number of control points (least squares)", 0},
     {"param", KEY_PARAM, "NAME|FILE", 0,
      "parameters of the points: chord, centripetal, ... ('pia list params'), or a file: a curve one a row, scattered points u,v a row, "
-     "a grid "
-     "two rows (all u, all v)",
+     "a grid two rows (all u, all v); scattered points: auto (default), plane, cylinder, sphere, xy, or a model file, their base "
+     "surface",
      0},
     {"knots", KEY_KNOTS, "NAME|FILE", 0, "auto, average, lsq, ... ('pia list placements'), or a file of knots; a surface: two rows", 0},
     {"closed", KEY_CLOSED, "u|v|uv", OPTION_ARG_OPTIONAL, "periodic, a surface in u, v or both; a repeated last point is accepted", 0},
     {"start", KEY_START, "MODEL", 0, "begin with the knots, degrees and control points of this model", 0},
+    {"trim", KEY_TRIM, "alpha|hull|none", 0,
+     "where a surface over scattered points ends: at their alpha shape, with holes (default), at their convex hull, or not at all", 0},
+    {"trim-radius", KEY_TRIM_RADIUS, "R", 0, "a gap between points wider than 2 R is a hole; default from their spacing", 0},
     {0}};
 
 static error_t parse_degree(struct fit_request *request, const char *arg)
@@ -107,6 +112,13 @@ static error_t parse_kind(struct fit_request *request, enum fit_kind kind)
     return 0;
 }
 
+static error_t parse_trim(struct fit_request *request, const char *arg)
+{
+    request->trim = arg;
+    if (strcmp(arg, "alpha") == 0 || strcmp(arg, "hull") == 0 || strcmp(arg, "none") == 0) return 0;
+    return usage_error("--trim: '%s' is unknown; alpha, hull or none", arg);
+}
+
 static error_t parse_model(int key, char *arg, struct argp_state *state)
 {
     struct fit_request *request = state->input;
@@ -120,6 +132,8 @@ static error_t parse_model(int key, char *arg, struct argp_state *state)
     case KEY_KNOTS: request->knots = arg; return 0;
     case KEY_CLOSED: return parse_closed(request, arg, state);
     case KEY_START: request->start = arg; return 0;
+    case KEY_TRIM: return parse_trim(request, arg);
+    case KEY_TRIM_RADIUS: return option_number("--trim-radius", arg, 1e-300, &request->trim_radius);
     default: return ARGP_ERR_UNKNOWN;
     }
 }
@@ -361,6 +375,7 @@ static const char manual[] =
     "  pia fit scan.csv --control 40 --interpolate ends -o scan.igs\n"
     "  pia fit dem.asc --control 30,40 -o dem.json         a surface of 30 x 40 control points\n"
     "  pia fit peaks.csv --grid 11x11 --method pia --iterations 30 --trace history.csv\n"
+    "  pia fit scan.ply --surface --tolerance 0.05 --measure distance -o scan.step\n"
     "  pia fit signal.csv --fit-function --tolerance 0.1 -o signal.json\n"
     "  pia fit part.csv --levels 1e-1,1e-2,1e-3 -o part.json   writes part.1e-1.json, ...\n"
     "  cat points.csv | pia fit - -o - | pia eval - --samples 500\n"

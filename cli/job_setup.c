@@ -1,5 +1,6 @@
 #include <string.h>
 
+#include "file_name.h"
 #include "fit_job.h"
 #include "registry.h"
 
@@ -71,7 +72,10 @@ static int read_files(struct fit_job *job)
 {
     struct fit_request *request = job->request;
     struct session *session = job->session;
-    int code = read_named(job, "--param", "parametrization", request->parameters, &request->options.parametrization, &job->parameters);
+    int based = request->parameters && is_model_name(request->parameters, NULL);
+    int code =
+        based ? fit_base_open(job, request->parameters)
+              : read_named(job, "--param", "parametrization", request->parameters, &request->options.parametrization, &job->parameters);
     if (!code) code = read_named(job, "--knots", "placement", request->knots, &request->options.placement, &job->knots);
     if (!code && request->weights && !request->source.weights) code = numbers_read(session, request->weights, &job->weights);
     if (!code && request->tolerances) code = numbers_read(session, request->tolerances, &job->tolerances);

@@ -412,6 +412,21 @@ const pia_index *pia_model_dropped(const pia_model *model, pia_index *count);
  * the loops; JSON, STEP and IGES files hold them, an OBJ mesh ends at them, other formats hold the whole surface. */
 pia_status pia_model_trim(pia_context *context, const pia_model *model, pia_index loop_count, const pia_index *vertex_counts,
                           const double *uv, pia_model **out);
+/* How to find the outline of points. */
+typedef struct pia_outline_options {
+    size_t struct_size;
+    int hull;      /* 1: the convex hull of the parameters; 0: an alpha shape, which has bays and holes */
+    double radius; /* of the alpha shape, units of the points: a region without points is outside, or a hole, where a disc of this
+                      radius fits in it; 0: chosen from the spacing of the points */
+} pia_outline_options;
+
+/* Zeroes. */
+void pia_outline_options_init(pia_outline_options *options);
+/* The same surface, trimmed to where its points are: parameters [count x 2], count >= 3. Of several islands the one with the most
+ * points is kept. Untrimmed where the points fill the domain. Points left outside and holes with their sizes are noted, where a fit
+ * made the model. Errors as pia_model_trim; PIA_E_DATA also when a parameter is not finite. O(count log count). */
+pia_status pia_model_trim_to_points(pia_context *context, const pia_model *model, const double *parameters, pia_index count,
+                                    const pia_outline_options *options, pia_model **out);
 /* 0 for an untrimmed surface and for a curve. */
 pia_index pia_model_trim_loop_count(const pia_model *model);
 /* Vertices of a loop, borrowed, [*count x 2] without a repeated last one; NULL and 0 when there is no such loop. */
