@@ -23,6 +23,7 @@ struct fit_request {
     const char *interpolate, *constraints, *corners, *freeze;
     const char *weights, *tolerances;
     const char *closed; /* "", "u", "v" or "uv" */
+    const char *order;  /* "given", "nearest" or "tree"; NULL: given */
     const char *trim;   /* "alpha", "hull" or "none"; NULL: alpha for scattered points */
     double trim_radius; /* 0: from the spacing */
     const char *format; /* --format: of the file that it turns out to mean */
@@ -80,6 +81,8 @@ int fit_request_parse(struct fit_request *request, struct session *session, int 
 /* job_setup.c: reads the points and the files that options name; then one task for each part. */
 int fit_inputs_open(struct fit_job *job);
 void fit_inputs_close(struct fit_job *job);
+/* job_order.c: the points of a curve in the order that --order asks for; a hint where the given one looks random. */
+int fit_order(struct fit_job *job);
 /* job_base.c: the parameters of scattered points from a base surface. */
 int fit_base_open(struct fit_job *job, const char *path);
 int fit_task_open(struct fit_job *job, pia_index part, struct fit_task *out);

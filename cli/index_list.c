@@ -23,6 +23,11 @@ pia_index row_in_file(const struct row_span *span, pia_index index)
 
 pia_index row_in_span(const struct row_span *span, pia_index file_row)
 {
+    if (span->any_order) {
+        for (pia_index i = 0; i < span->count; i++)
+            if (row_in_file(span, i) == file_row) return i;
+        return -1;
+    }
     if (!span->row) return file_row >= span->first && file_row < span->first + span->count ? file_row - span->first : -1;
     pia_index low = 0, high = span->count;
     while (low < high) {
@@ -60,7 +65,8 @@ static int add_file_row(struct growing *growing, pia_index file_row)
         return fail(EXIT_USAGE, "%s: there is no %lld; they run from 0 to %lld", growing->option, (long long)file_row,
                     (long long)span->total - 1);
     pia_index index = row_in_span(span, file_row);
-    if (index < 0 && span->count && file_row >= row_in_file(span, 0) && file_row <= row_in_file(span, span->count - 1))
+    if (index < 0 && span->count && !span->any_order && file_row >= row_in_file(span, 0) &&
+        file_row <= row_in_file(span, span->count - 1))
         return fail(EXIT_DATA, "%s: row %lld was dropped; leave it out of the list", growing->option, (long long)file_row);
     if (index < 0) return EXIT_DONE;
     append(growing, index);

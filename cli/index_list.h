@@ -9,6 +9,7 @@ struct row_span {
     const pia_index *row;   /* file row of each kept row; NULL: all were kept */
     pia_index first, count; /* kept rows of this part */
     pia_index total;        /* rows in the file, dropped ones included */
+    int any_order;          /* 1: rows were put into another order */
 };
 
 struct index_list {

@@ -3,6 +3,7 @@
 #include <math.h>
 
 #include "json_writer.h"
+#include "order_hint.h"
 
 /* Figures of one part, or of a whole grid; NaN is passed over. */
 struct figures {
@@ -11,6 +12,7 @@ struct figures {
     pia_index duplicates; /* points equal to the one before */
     pia_index holes;      /* points with a component that is not a number */
     int closed;           /* 1: the last point repeats the first, to rounding */
+    double order_ratio;   /* see order_hint.h */
 };
 
 static double distance_between(const double *a, const double *b, int dim)
@@ -69,12 +71,13 @@ static double suggestion(const struct point_source *source, const pia_points_inf
     return pia_suggest_tolerance(source->session->context, &data, &tolerance, noise) == PIA_OK && tolerance > 0 ? tolerance : 0;
 }
 
-static struct figures measure(const pia_points_info *info, const struct row_span *span)
+static struct figures measure(struct session *session, const pia_points_info *info, const struct row_span *span)
 {
     struct figures figures = {.holes = 0};
     const double *points = info->points + span->first * info->dim;
     measure_box(points, span->count, info->dim, &figures);
     if (info->kind == PIA_CURVE) measure_spacing(points, span->count, info->dim, &figures);
+    if (info->kind == PIA_CURVE) figures.order_ratio = order_ratio(session, points, span->count, info->dim);
     return figures;
 }
 
@@ -95,6 +98,9 @@ static void print_figures(const struct figures *figures, const pia_points_info *
     printf("spacing      %.6g least, %.6g mean, %.6g largest\n", figures->spacing[0], figures->spacing[1], figures->spacing[2]);
     printf("closed       %s\n", figures->closed ? "yes, the last point repeats the first" : "no");
     printf("duplicates   %lld points equal the one before\n", (long long)figures->duplicates);
+    if (figures->order_ratio >= ORDER_LOOKS_RANDOM)
+        printf("order        random: the way through them is %.3g times their spanning tree; 'pia fit --order tree' finds an order\n",
+               figures->order_ratio);
 }
 
 static void print_text(const struct point_source *source, const struct point_set *set, pia_index first, pia_index parts)
@@ -108,7 +114,7 @@ static void print_text(const struct point_source *source, const struct point_set
     if (info->skipped) printf("dropped      %lld invalid rows\n", (long long)info->skipped);
     for (pia_index k = 0; k < parts; k++) {
         struct row_span span = points_span(set, first + k);
-        struct figures figures = measure(info, &span);
+        struct figures figures = measure(source->session, info, &span);
         pia_index part = first + k, row = span.count ? row_in_file(&span, 0) : 0;
         if (info->part_count > 1)
             printf("part %-7lld %lld points from row %lld\n", (long long)part, (long long)span.count, (long long)row);
@@ -124,7 +130,7 @@ static void put_figures(struct json_writer *json, const struct point_source *sou
                         const struct row_span *span)
 {
     double noise, tolerance = suggestion(source, info, span, &noise);
-    struct figures figures = measure(info, span);
+    struct figures figures = measure(source->session, info, span);
     json_count(json, "point_count", span->count);
     json_numbers(json, "low", figures.low, info->dim);
     json_numbers(json, "high", figures.high, info->dim);
@@ -134,6 +140,7 @@ static void put_figures(struct json_writer *json, const struct point_source *sou
     json_number(json, "suggested_tolerance", tolerance > 0 ? tolerance : NAN);
     if (info->kind != PIA_CURVE) return;
     json_truth(json, "closed", figures.closed);
+    json_truth(json, "looks_random", figures.order_ratio >= ORDER_LOOKS_RANDOM);
     json_count(json, "duplicates", figures.duplicates);
     json_open(json, "spacing", '{');
     json_number(json, "least", figures.spacing[0]);

@@ -13,6 +13,7 @@ enum {
     KEY_PARAM,
     KEY_CLOSED,
     KEY_START,
+    KEY_ORDER,
     KEY_TRIM,
     KEY_TRIM_RADIUS,
     KEY_TOLERANCE,
@@ -76,6 +77,8 @@ static const struct argp_option model_options[] = {
     {"knots", KEY_KNOTS, "NAME|FILE", 0, "auto, average, lsq, ... ('pia list placements'), or a file of knots; a surface: two rows", 0},
     {"closed", KEY_CLOSED, "u|v|uv", OPTION_ARG_OPTIONAL, "periodic, a surface in u, v or both; a repeated last point is accepted", 0},
     {"start", KEY_START, "MODEL", 0, "begin with the knots, degrees and control points of this model", 0},
+    {"order", KEY_ORDER, "given|nearest|tree", 0,
+     "order of the points of a curve: as given (default), by nearest neighbours, or along their spanning tree", 0},
     {"trim", KEY_TRIM, "alpha|hull|none", 0,
      "where a surface over scattered points ends: at their alpha shape, with holes (default), at their convex hull, or not at all", 0},
     {"trim-radius", KEY_TRIM_RADIUS, "R", 0, "a gap between points wider than 2 R is a hole; default from their spacing", 0},
@@ -119,6 +122,13 @@ static error_t parse_trim(struct fit_request *request, const char *arg)
     return usage_error("--trim: '%s' is unknown; alpha, hull or none", arg);
 }
 
+static error_t parse_order(struct fit_request *request, const char *arg)
+{
+    request->order = arg;
+    if (strcmp(arg, "given") == 0 || strcmp(arg, "nearest") == 0 || strcmp(arg, "tree") == 0) return 0;
+    return usage_error("--order: '%s' is unknown; given, nearest or tree", arg);
+}
+
 static error_t parse_model(int key, char *arg, struct argp_state *state)
 {
     struct fit_request *request = state->input;
@@ -132,6 +142,7 @@ static error_t parse_model(int key, char *arg, struct argp_state *state)
     case KEY_KNOTS: request->knots = arg; return 0;
     case KEY_CLOSED: return parse_closed(request, arg, state);
     case KEY_START: request->start = arg; return 0;
+    case KEY_ORDER: return parse_order(request, arg);
     case KEY_TRIM: return parse_trim(request, arg);
     case KEY_TRIM_RADIUS: return option_number("--trim-radius", arg, 1e-300, &request->trim_radius);
     default: return ARGP_ERR_UNKNOWN;

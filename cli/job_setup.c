@@ -103,6 +103,7 @@ int fit_inputs_open(struct fit_job *job)
     job->part_first = all ? 0 : request->source.part;
     job->part_count = all ? job->points.info.part_count : 1;
     code = decide_kind(job);
+    if (!code) code = fit_order(job);
     if (job->kind != PIA_CURVE) job->part_count = 1;
     if (!code) code = read_files(job);
     if (!code && job->points.info.skipped)
@@ -125,7 +126,7 @@ static int choose_rows(struct fit_job *job, const struct numbers *numbers, const
     if (!numbers->count) return EXIT_DONE;
     pia_index kept = job->points.info.count[0] * job->points.info.count[1];
     pia_index wanted = kept * width;
-    if (numbers->count == wanted) {
+    if (numbers->count == wanted && !span->any_order) {
         *out = numbers->value + span->first * width;
         return EXIT_DONE;
     }

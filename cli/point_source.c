@@ -136,7 +136,8 @@ void points_close(struct point_set *set)
 struct row_span points_span(const struct point_set *set, pia_index part)
 {
     const pia_points_info *info = &set->info;
-    struct row_span span = {.row = info->row, .count = info->count[0] * info->count[1], .total = set->total};
+    struct row_span span = {
+        .row = info->row, .count = info->count[0] * info->count[1], .total = set->total, .any_order = set->any_order};
     if (part != PIA_AUTO && info->kind == PIA_CURVE) {
         span.first = info->part[part];
         span.count = info->part[part + 1] - span.first;

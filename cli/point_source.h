@@ -25,6 +25,7 @@ struct point_set {
     pia_points_info info;  /* points, dim and count may have been changed by `shape` and `weights` */
     const double *weights; /* [count[0]]; NULL: none */
     pia_index total;       /* rows in the file, dropped ones included */
+    int any_order;         /* 1: rows were put into another order */
 };
 
 void point_source_init(struct point_source *source, struct session *session);

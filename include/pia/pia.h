@@ -307,6 +307,24 @@ pia_status pia_fit_data(pia_context *context, const pia_data *data, const pia_fi
  * UNAVAILABLE (scattered points), MEMORY. */
 pia_status pia_suggest_tolerance(pia_context *context, const pia_data *data, double *tolerance, double *noise);
 
+/* What is known of an order. */
+typedef struct pia_order_report {
+    size_t struct_size;
+    double length;      /* of the polyline through the points in this order */
+    double tree_length; /* of their spanning tree: no order is shorter, a random one many times as long */
+    int closed;         /* 1: the two ends are neighbours */
+    pia_index
+        break_count; /* nearest: steps of more than ten times the median one; tree: twigs as long that are not of the longest path */
+    pia_index break_row; /* where the longest of them begins; -1: none */
+    double break_length;
+} pia_order_report;
+
+/* An order for points of a curve that have none: order [count] becomes the rows along the curve. how: "nearest", from a point far off
+ * always to the nearest that is left; "tree", along the longest path of the spanning tree; "given" or NULL, the rows as they are.
+ * report may be NULL. Errors: PIA_E_ARGUMENT, PIA_E_DATA (not finite), MEMORY, SIZE. O(count log count) for points along a curve. */
+pia_status pia_points_order(pia_context *context, const double *points, pia_index count, int dim, const char *how, pia_index *order,
+                            pia_order_report *report);
+
 /* A fit that is stepped, read and edited. Copies the data; the options' arrays need not outlive the call. */
 pia_status pia_fit_open(pia_context *context, const pia_data *data, const pia_fit_options *options, pia_fit **out);
 /* `iterations` updates, fewer when a stop rule fires. report may be NULL. */

@@ -128,10 +128,8 @@ static void a_cloud_survives_every_failure(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(a_curve_survives_every_failure),
-        cmocka_unit_test(a_curve_with_corners_survives_every_failure),
-        cmocka_unit_test(constraints_survive_every_failure),
-        cmocka_unit_test(a_surface_survives_every_failure),
+        cmocka_unit_test(a_curve_survives_every_failure),    cmocka_unit_test(a_curve_with_corners_survives_every_failure),
+        cmocka_unit_test(constraints_survive_every_failure), cmocka_unit_test(a_surface_survives_every_failure),
         cmocka_unit_test(a_cloud_survives_every_failure),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -1,6 +1,6 @@
 /* The value of a given rank without sorting. */
-#ifndef PIA_DIAG_SELECT_H
-#define PIA_DIAG_SELECT_H
+#ifndef PIA_BASE_SELECT_H
+#define PIA_BASE_SELECT_H
 
 #include "context.h"
 
