@@ -20,7 +20,7 @@ typedef struct map {
 static pia_status choose_radius(pia_context *context, const pia_outline_problem *p, double *radius)
 {
     pia_index every = (p->count + LOOKED_AT - 1) / LOOKED_AT, count = (p->count + every - 1) / every;
-    pia_edge *edge = NULL;
+    pia_tree_edge *edge = NULL;
     double *at = pia_take(context, 2 * count, sizeof *at);
     if (at == NULL) return pia_take_status(context, 2 * count, sizeof *at);
     for (pia_index i = 0; i < 2 * count; i++) at[i] = p->uv[2 * every * (i / 2) + i % 2] * p->scale[i % 2];

@@ -27,7 +27,7 @@ static void measure(const double *points, pia_index count, int dim, const pia_in
 
 static pia_status measure_tree(pia_context *context, const double *points, pia_index count, int dim, double *length)
 {
-    pia_edge *edge;
+    pia_tree_edge *edge;
     pia_status status = pia_spanning_tree(context, points, count, dim, &edge);
     if (status != PIA_OK) return status;
     *length = 0;

@@ -9,12 +9,12 @@
 /* The tree as lists of neighbours, and a walk over it. */
 typedef struct network {
     pia_index count;
-    const pia_edge *edge; /* [count - 1] shortest first */
-    pia_index *begin;     /* [count + 1] where the neighbours of a row begin */
-    pia_index *incident;  /* [2 (count - 1)] edges */
-    pia_index *from;      /* [count] the row from which the walk came; -1: it began there; -2: not reached */
-    double *away;         /* [count] length of the way */
-    pia_index *queue;     /* [count] rows in the order of the walk */
+    const pia_tree_edge *edge; /* [count - 1] shortest first */
+    pia_index *begin;          /* [count + 1] where the neighbours of a row begin */
+    pia_index *incident;       /* [2 (count - 1)] edges */
+    pia_index *from;           /* [count] the row from which the walk came; -1: it began there; -2: not reached */
+    double *away;              /* [count] length of the way */
+    pia_index *queue;          /* [count] rows in the order of the walk */
 } network;
 
 static void list_neighbours(network *n)
@@ -34,7 +34,7 @@ static void walk_on(network *n, pia_index queued)
     for (pia_index i = 0; i < queued; i++) {
         pia_index row = n->queue[i];
         for (pia_index k = n->begin[row]; k < n->begin[row + 1]; k++) {
-            const pia_edge *edge = &n->edge[n->incident[k]];
+            const pia_tree_edge *edge = &n->edge[n->incident[k]];
             pia_index next = edge->row[edge->row[0] == row];
             if (n->from[next] != -2) continue;
             n->from[next] = row;
@@ -142,7 +142,7 @@ static pia_status line_up_network(pia_context *context, network *n, pia_index *o
 pia_status pia_order_tree(pia_context *context, const double *points, pia_index count, int dim, pia_index *order,
                           pia_order_report *report)
 {
-    pia_edge *edge;
+    pia_tree_edge *edge;
     pia_status status = pia_spanning_tree(context, points, count, dim, &edge);
     if (status != PIA_OK) return status;
     network n = {.count = count, .edge = edge};

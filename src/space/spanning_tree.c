@@ -11,8 +11,8 @@ typedef struct forest {
     pia_kdtree tree;
     pia_index *group;     /* [count] smallest row of the tree a row is in, after `settle` */
     pia_index *all_group; /* [count] see kdtree.h */
-    pia_edge *best;       /* [count] by group: its shortest edge outwards; row[1] -1: none yet */
-    pia_edge *edge;       /* [count - 1] taken */
+    pia_tree_edge *best;  /* [count] by group: its shortest edge outwards; row[1] -1: none yet */
+    pia_tree_edge *edge;  /* [count - 1] taken */
     pia_index taken;
 } forest;
 
@@ -32,7 +32,7 @@ static pia_index mark(forest *f, pia_index begin, pia_index end)
     return f->all_group[middle] = same ? own : -1;
 }
 
-static int is_shorter(const pia_edge *a, const pia_edge *b)
+static int is_shorter(const pia_tree_edge *a, const pia_tree_edge *b)
 {
     if (a->length != b->length) return a->length < b->length;
     if (a->row[0] != b->row[0]) return a->row[0] < b->row[0];
@@ -48,14 +48,14 @@ static int by_length(const void *a, const void *b)
 static void find_best(forest *f)
 {
     pia_index count = f->tree.count;
-    for (pia_index row = 0; row < count; row++) f->best[row] = (pia_edge){{-1, -1}, INFINITY};
+    for (pia_index row = 0; row < count; row++) f->best[row] = (pia_tree_edge){{-1, -1}, INFINITY};
     for (pia_index row = 0; row < count; row++) {
-        pia_edge *best = &f->best[f->group[row]];
+        pia_tree_edge *best = &f->best[f->group[row]];
         pia_kdtree_filter filter = {.group = f->group, .all_group = f->all_group, .own = f->group[row]};
         double square = nextafter(best->length, INFINITY);
         pia_index other = pia_kdtree_nearest(&f->tree, f->tree.points + row * f->tree.dim, &filter, &square);
         if (other < 0) continue;
-        pia_edge edge = {{row < other ? row : other, row < other ? other : row}, square};
+        pia_tree_edge edge = {{row < other ? row : other, row < other ? other : row}, square};
         if (best->row[1] < 0 || is_shorter(&edge, best)) *best = edge;
     }
 }
@@ -64,7 +64,7 @@ static void join(forest *f)
 {
     pia_index count = f->tree.count;
     for (pia_index g = 0; g < count; g++) {
-        const pia_edge *edge = &f->best[g];
+        const pia_tree_edge *edge = &f->best[g];
         if (edge->row[1] < 0) continue;
         pia_index a = root_of(f->group, edge->row[0]), b = root_of(f->group, edge->row[1]);
         if (a == b) continue; /* the other tree took the same edge */
@@ -88,7 +88,7 @@ static void grow(forest *f)
     qsort(f->edge, (size_t)f->taken, sizeof *f->edge, by_length);
 }
 
-pia_status pia_spanning_tree(pia_context *context, const double *points, pia_index count, int dim, pia_edge **edges)
+pia_status pia_spanning_tree(pia_context *context, const double *points, pia_index count, int dim, pia_tree_edge **edges)
 {
     forest f = {.taken = 0};
     pia_status status = pia_kdtree_open(context, points, count, dim, &f.tree);

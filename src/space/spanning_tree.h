@@ -4,14 +4,14 @@
 
 #include "context.h"
 
-typedef struct pia_edge {
+typedef struct pia_tree_edge {
     pia_index row[2]; /* row[0] < row[1] */
     double length;
-} pia_edge;
+} pia_tree_edge;
 
 /* The count - 1 edges of the tree of points [count x dim], shortest first, equally long ones by rows; the caller gives them back. By
  * Boruvka's rounds with a k-d tree. O(count log^2 count) for points that fill lines or surfaces evenly. Errors: PIA_E_MEMORY,
  * PIA_E_SIZE. */
-pia_status pia_spanning_tree(pia_context *context, const double *points, pia_index count, int dim, pia_edge **edges);
+pia_status pia_spanning_tree(pia_context *context, const double *points, pia_index count, int dim, pia_tree_edge **edges);
 
 #endif

@@ -80,7 +80,7 @@ static void the_tree_is_as_short_as_prims(void **state)
 {
     static double points[4 * COUNT];
     for (int dim = 1; dim <= 4; dim++) {
-        pia_edge *edges;
+        pia_tree_edge *edges;
         int group[COUNT];
         double total = 0;
         make_points(points, dim);
@@ -103,7 +103,7 @@ static void the_tree_is_as_short_as_prims(void **state)
 static void one_point_and_equal_points_make_trees(void **state)
 {
     static const double same[8] = {3, 3, 3, 3, 3, 3, 3, 3};
-    pia_edge *edges;
+    pia_tree_edge *edges;
     assert_ok(*state, pia_spanning_tree(*state, same, 1, 2, &edges));
     free(edges);
     assert_ok(*state, pia_spanning_tree(*state, same, 4, 2, &edges));
