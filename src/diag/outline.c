@@ -6,7 +6,7 @@
 #include <math.h>
 #include <string.h>
 
-enum { MOST_NODES = 1000, LOOKED_AT = 20000 };
+enum { LEAST_NODES = 300, MOST_NODES = 1000, LOOKED_AT = 20000 };
 
 /* The raster of the domain, in lengths of space, and what is known at its nodes. */
 typedef struct map {
@@ -44,8 +44,8 @@ static pia_status open_map(pia_context *context, const pia_outline_problem *p, d
     pia_index nodes;
     *out = (map){.square = NULL};
     for (int d = 0; d < 2; d++) {
-        double extent = extent_of(p, d), spans = ceil(extent / (radius / 4));
-        spans = fmin(fmax(spans, 2), MOST_NODES);
+        double extent = extent_of(p, d), spans = ceil(extent / (radius / 8));
+        spans = fmin(fmax(spans, LEAST_NODES), MOST_NODES);
         out->raster.step[d] = extent / spans;
         out->pad[d] = (pia_index)fmin(ceil(radius / out->raster.step[d]) + 2, 2 * MOST_NODES);
         out->raster.count[d] = (pia_index)spans + 1 + 2 * out->pad[d];
@@ -75,10 +75,13 @@ static void mark_points(const pia_outline_problem *p, map *m)
             }
 }
 
-/* A little more than the points, so that those at the border are inside. */
-static double margin_of(const map *m)
+/* In steps of the raster. A point is up to 0.71 of one from the node that stands for it, contours are straight in a cell, and
+ * simplified loops cut off what is to spare: with this margin the points at the border stay inside. */
+static const double MARGIN = 1.3, SPARE = 0.25;
+
+static double step_of(const map *m)
 {
-    return 0.75 * fmax(m->raster.step[0], m->raster.step[1]);
+    return fmax(m->raster.step[0], m->raster.step[1]);
 }
 
 /* Closing: farther than a radius from all points is outside, and what is farther than a radius from all of that is inside. `square`
@@ -90,7 +93,7 @@ static pia_status close_gaps(pia_context *context, map *m, double radius)
     if (status != PIA_OK) return status;
     for (pia_index i = 0; i < nodes; i++) m->square[i] = m->square[i] > radius * radius ? 0 : INFINITY;
     status = pia_distance_map(context, &m->raster, m->square);
-    for (pia_index i = 0; i < nodes && status == PIA_OK; i++) m->square[i] = sqrt(m->square[i]) - radius + margin_of(m);
+    for (pia_index i = 0; i < nodes && status == PIA_OK; i++) m->square[i] = sqrt(m->square[i]) - radius + MARGIN * step_of(m);
     return status;
 }
 
@@ -224,7 +227,7 @@ static pia_status find_shape(pia_context *context, const pia_outline_problem *p,
     if (status == PIA_OK && !whole) status = pia_contour(context, &domain, m.square, &out->loops);
     if (status == PIA_OK && !whole) status = put_first(context, &out->loops);
     out->radius = radius;
-    out->coarseness = margin_of(&m);
+    out->coarseness = SPARE * step_of(&m);
     pia_give(context, m.square);
     return status;
 }

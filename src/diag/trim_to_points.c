@@ -86,6 +86,7 @@ static void simplify(const pia_outline_problem *p, double tolerance, pia_loops *
 static pia_status copy_loops(pia_context *context, const pia_loops *from, pia_loops *to)
 {
     *to = (pia_loops){.loop_count = from->loop_count, .vertex_total = from->vertex_total};
+    if (from->loop_count == 0) return PIA_OK;
     to->vertex_count = pia_take(context, from->loop_count, sizeof *to->vertex_count);
     to->at = pia_take(context, 2 * from->vertex_total, sizeof *to->at);
     if (to->vertex_count == NULL || to->at == NULL) {
@@ -101,7 +102,7 @@ static pia_status copy_loops(pia_context *context, const pia_loops *from, pia_lo
 static pia_status trim(pia_context *context, const pia_model *model, const pia_outline_problem *p, const pia_outline *outline,
                        pia_model **out)
 {
-    static const double share[] = {0.7, 0.2, 0};
+    static const double share[] = {1, 0.3, 0};
     unsigned char *keep = pia_take(context, outline->loops.vertex_total, 1);
     pia_status status = keep != NULL ? PIA_E_DATA : pia_take_status(context, outline->loops.vertex_total, 1);
     for (int k = 0; k < 3 && status == PIA_E_DATA; k++) {

@@ -55,7 +55,7 @@ static problem cloud_problem(void)
     p.data.count[1] = 1;
     p.options.degree[0] = p.options.degree[1] = 2;
     for (int i = 0; i < 24; i++)
-        for (int d = 0; d < 3; d++) p.points[3 * i + d] = p.points[3 * (15 * i) + d];
+        for (int d = 0; d < 3; d++) p.points[3 * i + d] = p.points[3 * (11 * i) + d];
     return p;
 }
 
