@@ -77,7 +77,7 @@ static void mark_points(const pia_outline_problem *p, map *m)
 
 /* In steps of the raster. A point is up to 0.71 of one from the node that stands for it, contours are straight in a cell, and
  * simplified loops cut off what is to spare: with this margin the points at the border stay inside. */
-static const double MARGIN = 1.3, SPARE = 0.25;
+static const double MARGIN = 1.7, SPARE = 0.65;
 
 static double step_of(const map *m)
 {

@@ -71,7 +71,8 @@ static pia_paint paint_of(const pia_scene *scene)
 
 static int net_shown(const pia_scene *scene, const pia_figure *figure)
 {
-    return scene->options.control && (figure->info.directions == 1 || figure->info.control[0] * figure->info.control[1] <= MOST_NET);
+    int small = figure->info.directions == 1 || figure->info.control[0] * figure->info.control[1] <= MOST_NET;
+    return scene->options.control && small && figure->outside == NULL; /* a net goes on where a trimmed surface has ended */
 }
 
 /* A polyline in strokes of at least one point on paper. */

@@ -85,12 +85,21 @@ static pia_colour colour_of(const painter *p, pia_index cell, const double *cons
     return pia_colour_lit(pia_colour_cycle(p->index), 1.45);
 }
 
+/* A cell that the edge of a trimmed surface crosses is drawn when less than half of its corners are cut away. */
+static int is_cut_away(const pia_figure *figure, pia_index corner)
+{
+    pia_index columns = figure->samples[1].count;
+    const unsigned char *o = figure->outside;
+    return o != NULL && o[corner] + o[corner + 1] + o[corner + columns] + o[corner + columns + 1] > 1;
+}
+
 static void add_cells(pia_pieces *pieces, const painter *p)
 {
     const pia_figure *figure = &p->scene->figure[p->index];
     pia_index rows = figure->samples[0].count, columns = figure->samples[1].count;
     for (pia_index i = 0; i + 1 < rows; i++) {
         for (pia_index j = 0; j + 1 < columns; j++) {
+            if (is_cut_away(figure, i * columns + j)) continue;
             const double *a = figure->at + 3 * (i * columns + j);
             const double *const at[4] = {a, a + 3, a + 3 * columns + 3, a + 3 * columns};
             pia_colour colour = colour_of(p, i * (columns - 1) + j, at);
@@ -109,7 +118,7 @@ static void add_knot_lines(pia_pieces *pieces, const painter *p, int direction, 
 {
     const pia_figure *figure = &p->scene->figure[p->index];
     const pia_samples *held = &figure->samples[direction], *run = &figure->samples[1 - direction];
-    pia_index step = 3 * (direction == 0 ? 1 : figure->samples[1].count), jump = 3 * (direction == 0 ? figure->samples[1].count : 1);
+    pia_index step = direction == 0 ? 1 : figure->samples[1].count, jump = direction == 0 ? figure->samples[1].count : 1;
     pia_index stride = pia_patch_knot_stride(figure, direction), knot = 0;
     for (pia_index i = 0; i < held->count; i++) {
         if (!held->at_knot[i]) continue;
@@ -117,11 +126,19 @@ static void add_knot_lines(pia_pieces *pieces, const painter *p, int direction, 
         if (knot++ % stride != 0 && !border) continue;
         if (!border && !p->scene->options.knots) continue;
         for (pia_index j = 0; j + 1 < run->count; j++) {
-            const double *a = figure->at + i * jump + j * step;
-            const double *const at[2] = {a, a + step};
+            pia_index from = i * jump + j * step;
+            if (figure->outside != NULL && (figure->outside[from] || figure->outside[from + step])) continue;
+            const double *const at[2] = {figure->at + 3 * from, figure->at + 3 * (from + step)};
             pia_piece_add(pieces, at, 2, border ? 0.8 : 0.4, lift, pia_colour_faded(pia_colour_grey(0.1), border ? 0.9 : 0.5));
         }
     }
+}
+
+static void add_trim_edges(pia_pieces *pieces, const pia_figure *figure, double lift)
+{
+    const double *stroke = figure->edge;
+    for (pia_index i = 0; i < figure->edge_count; i++, stroke += 6)
+        pia_piece_add(pieces, (const double *const[]){stroke, stroke + 3}, 2, 0.8, lift, pia_colour_faded(pia_colour_grey(0.1), 0.9));
 }
 
 /* Lines on a surface are nearer than the facets around them by about the size of a facet. */
@@ -170,6 +187,7 @@ pia_status pia_patch_add(pia_pieces *pieces, const pia_scene *scene, pia_index i
         double lift = facet_size(pieces->view, figure);
         add_cells(pieces, &p);
         for (int d = 0; d < 2; d++) add_knot_lines(pieces, &p, d, lift);
+        add_trim_edges(pieces, figure, lift);
         if (net) add_net(pieces, figure, lift);
     }
     pia_give(scene->context, p.map.value);

@@ -5,7 +5,7 @@
 #include <math.h>
 #include <string.h>
 
-enum { CURVE_SAMPLES = 20000, CURVE_SPANS = 2000000, MOST_PIECES = 256, TEETH = 500 };
+enum { CURVE_SAMPLES = 20000, CURVE_SPANS = 2000000, MOST_PIECES = 256, TEETH = 500, STROKES = 6 };
 static const double largest_drawn = 1e150;
 
 static pia_index count_spans(const double *knots, int degree, pia_index control)
@@ -129,6 +129,44 @@ static pia_status sample_shape(pia_context *context, pia_figure *figure)
     return place_lattice(context, figure->model, s[0].parameter, s[0].count, s[1].parameter, s[1].count, figure->at);
 }
 
+/* Strokes along the sides of a loop: straight in the parameters, bent in space. */
+static double *stroke_loop(const double *loop, pia_index count, double *to)
+{
+    for (pia_index i = 0; i < count; i++) {
+        const double *a = loop + 2 * i, *b = loop + 2 * ((i + 1) % count);
+        for (int k = 0; k < 2 * STROKES; k++)
+            for (int d = 0; d < 2; d++) *to++ = a[d] + (b[d] - a[d]) * ((k + 1) / 2) / STROKES;
+    }
+    return to;
+}
+
+/* Which samples the trim loops of a surface cut away, and where its edges are. */
+static pia_status sample_trim(pia_context *context, pia_figure *figure)
+{
+    const pia_samples *s = figure->samples;
+    pia_index loops = pia_model_trim_loop_count(figure->model), count = 0, ends, sample = 0;
+    if (loops == 0) return PIA_OK;
+    for (pia_index k = 0; k < loops; k++, figure->edge_count += STROKES * count) pia_model_trim_loop(figure->model, k, &count);
+    ends = 2 * figure->edge_count;
+    double *parameter = pia_take(context, ends, 2 * sizeof *parameter), *to = parameter;
+    double *value = pia_take(context, ends, (size_t)figure->info.dim * sizeof *value);
+    figure->edge = pia_take(context, ends, 3 * sizeof *figure->edge);
+    figure->outside = pia_take(context, s[0].count * s[1].count, 1);
+    int all = parameter != NULL && value != NULL && figure->edge != NULL && figure->outside != NULL;
+    for (pia_index k = 0; k < loops && all; k++) {
+        const double *loop = pia_model_trim_loop(figure->model, k, &count);
+        to = stroke_loop(loop, count, to);
+    }
+    pia_status status = all ? pia_model_eval(context, figure->model, parameter, ends, 0, value) : PIA_E_MEMORY;
+    if (status == PIA_OK) status = place_all(context, &figure->info, parameter, value, ends, figure->info.dim, figure->edge);
+    for (pia_index i = 0; i < s[0].count && status == PIA_OK; i++)
+        for (pia_index j = 0; j < s[1].count; j++)
+            figure->outside[sample++] = !pia_model_trim_contains(figure->model, s[0].parameter[i], s[1].parameter[j]);
+    pia_give(context, parameter);
+    pia_give(context, value);
+    return status;
+}
+
 pia_status pia_figure_lattice(pia_context *context, const pia_model *model, const pia_index count[2], double *at)
 {
     pia_model_info info = {.struct_size = sizeof info};
@@ -224,6 +262,7 @@ pia_status pia_figure_take(pia_context *context, const pia_model *model, pia_ind
         pia_samples_take(context, model, 0, surface ? most : CURVE_SAMPLES, surface ? most : CURVE_SPANS, &out->samples[0]);
     if (status == PIA_OK && surface) status = pia_samples_take(context, model, 1, most, most, &out->samples[1]);
     if (status == PIA_OK) status = sample_shape(context, out);
+    if (status == PIA_OK) status = sample_trim(context, out);
     if (status == PIA_OK) status = sample_control(context, out);
     if (status == PIA_OK && comb && !surface && out->info.dim > 1) status = sample_comb(context, out);
     if (status != PIA_OK) pia_figure_give(context, out);
@@ -235,6 +274,8 @@ void pia_figure_give(pia_context *context, pia_figure *figure)
     pia_samples_give(context, &figure->samples[0]);
     pia_samples_give(context, &figure->samples[1]);
     pia_give(context, figure->at);
+    pia_give(context, figure->outside);
+    pia_give(context, figure->edge);
     pia_give(context, figure->control);
     pia_give(context, figure->tooth);
     *figure = (pia_figure){0};

@@ -32,8 +32,11 @@ typedef struct pia_figure {
     pia_model_info info;
     pia_samples samples[2]; /* of a curve, samples[1].count is 1 */
     double *at;             /* [samples[0].count x samples[1].count x 3] */
-    double *control;        /* [control[0] x control[1] x 3] */
-    pia_tooth *tooth;       /* [tooth_count], NULL without a comb */
+    unsigned char *outside; /* [samples[0].count x samples[1].count], 1: cut away by the trim loops; NULL: untrimmed */
+    double *edge;           /* [edge_count x 2 x 3] strokes along the trim loops, from and to; NULL: untrimmed */
+    pia_index edge_count;
+    double *control;  /* [control[0] x control[1] x 3] */
+    pia_tooth *tooth; /* [tooth_count], NULL without a comb */
     pia_index tooth_count;
 } pia_figure;
 

@@ -74,11 +74,20 @@ static void cover_control(pia_scene *scene)
         high[c] = scene->high[c] + reach;
     }
     for (pia_index f = 0; f < scene->figure_count; f++)
-        cover(scene, scene->figure[f].control, scene->figure[f].info.control[0] * scene->figure[f].info.control[1]);
+        if (scene->figure[f].outside == NULL) /* the net of a trimmed surface is not drawn */
+            cover(scene, scene->figure[f].control, scene->figure[f].info.control[0] * scene->figure[f].info.control[1]);
     for (int c = 0; c < 3; c++) {
         scene->low[c] = fmax(scene->low[c], low[c]);
         scene->high[c] = fmin(scene->high[c], high[c]);
     }
+}
+
+/* What is cut away takes no room. */
+static void cover_shape(pia_scene *scene, const pia_figure *figure)
+{
+    for (pia_index i = 0; i < figure->samples[0].count * figure->samples[1].count; i++)
+        if (figure->outside == NULL || !figure->outside[i]) cover(scene, figure->at + 3 * i, 1);
+    cover(scene, figure->edge, 2 * figure->edge_count);
 }
 
 static pia_status find_bounds(pia_scene *scene)
@@ -87,8 +96,7 @@ static pia_status find_bounds(pia_scene *scene)
         scene->low[c] = INFINITY;
         scene->high[c] = -INFINITY;
     }
-    for (pia_index f = 0; f < scene->figure_count; f++)
-        cover(scene, scene->figure[f].at, scene->figure[f].samples[0].count * scene->figure[f].samples[1].count);
+    for (pia_index f = 0; f < scene->figure_count; f++) cover_shape(scene, &scene->figure[f]);
     cover(scene, scene->point, scene->point_count);
     pia_status status = scale_comb(scene);
     if (status != PIA_OK) return status;

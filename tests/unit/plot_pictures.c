@@ -252,6 +252,30 @@ static void surfaces_of_every_dimension_are_drawn(void **state)
     }
 }
 
+/* A quarter of the domain: facets are fewer in that proportion, and the net is left out. */
+static void a_trimmed_surface_ends_at_its_loops(void **state)
+{
+    static const double loop[] = {0.25, 0.25, 0.75, 0.25, 0.75, 0.75, 0.25, 0.75};
+    const int degree[2] = {3, 3};
+    const pia_index control[2] = {9, 9}, corners = 4;
+    pia_model *whole = make_surface(*state, degree, control, 3, 0), *face = NULL;
+    assert_ok(*state, pia_model_trim(*state, whole, 1, &corners, loop, &face));
+    pia_plot_options options;
+    pia_plot_options_init(&options);
+    options.knots = options.control = 0;
+    char *all = draw(*state, whole, NULL, 0, &options), *part = draw(*state, face, NULL, 0, &options);
+    assert_true(occurrences(part, "<path") < occurrences(all, "<path") / 3);
+    assert_true(occurrences(part, "<path") > occurrences(all, "<path") / 6);
+    options.control = 1;
+    char *with_net = draw(*state, face, NULL, 0, &options);
+    assert_string_equal(part, with_net);
+    free(all);
+    free(part);
+    free(with_net);
+    pia_model_destroy(whole);
+    pia_model_destroy(face);
+}
+
 static void views_from_everywhere_are_drawn(void **state)
 {
     static const double view[][2] = {{0, 0}, {90, 90}, {-90, -90}, {180, -20}, {1234, 35}};
@@ -472,6 +496,7 @@ int main(void)
         IN_FOLDER(equal_pictures_are_equal_bytes),
         IN_FOLDER(curves_of_every_degree_and_dimension_are_drawn),
         IN_FOLDER(surfaces_of_every_dimension_are_drawn),
+        IN_FOLDER(a_trimmed_surface_ends_at_its_loops),
         IN_FOLDER(views_from_everywhere_are_drawn),
         IN_FOLDER(layers_come_and_go_with_their_options),
         IN_FOLDER(shapes_without_extent_and_of_extreme_size_are_drawn),
