@@ -128,8 +128,12 @@ static void describe(const pia_outline_problem *p, const pia_outline *outline, p
                      "%lld points lie in islands outside the outline; a larger --trim-radius than %.4g joins them",
                      (long long)outline->outside, outline->radius);
     if (loops->loop_count < 2) return;
-    pia_note_add(&model->memory, notes, "%lld holes are left open, regions without points that a disc of radius %.4g fits in",
-                 (long long)loops->loop_count - 1, outline->radius);
+    if (loops->loop_count == 2)
+        pia_note_add(&model->memory, notes, "a hole is left open, a region without points that a disc of radius %.4g fits in",
+                     outline->radius);
+    else
+        pia_note_add(&model->memory, notes, "%lld holes are left open, regions without points that a disc of radius %.4g fits in",
+                     (long long)loops->loop_count - 1, outline->radius);
     const double *at = loops->at + 2 * loops->vertex_count[0];
     for (pia_index k = 1; k < loops->loop_count && k <= MOST_NAMED; at += 2 * loops->vertex_count[k++]) {
         double middle[2] = {0}, area = fabs(pia_loop_area(at, loops->vertex_count[k])) * p->scale[0] * p->scale[1];

@@ -267,10 +267,9 @@ static void note_measure(pia_fit *fit)
 {
     const pia_fit_options *o = &fit->options;
     if (!o->measure_distance && o->correct <= 0) return;
-    if (fit->directions == 2 || fit->function_graph)
-        pia_fit_note_add(fit,
-                         "parameters are corrected for curves only: deviations are those at the parameters given or chosen, and true "
-                         "distances are never larger");
+    if (fit->kind == PIA_GRID || fit->function_graph)
+        pia_fit_note_add(fit, "parameters are corrected for curves and scattered points only: deviations are those at the parameters "
+                              "given or chosen, and true distances are never larger");
     else if (fit->square || (o->measure_distance && !fit->refining))
         pia_fit_note_add(fit, "true distance is what a tolerance without a number of control points can ask for; here deviations are "
                               "those at the parameters");
