@@ -15,7 +15,7 @@ static const struct argp_option common_options[] = {
     {"verbose", 'v', NULL, 0, "tell on stderr what the library does", 0},
     {"threads", KEY_THREADS, "N", 0, "threads, 1 to 1024 (default: as many as pay); results do not depend on it", 0},
     {"backend", KEY_BACKEND, "NAME", 0, "kernels to use, see 'pia list backends'", 0},
-    {"seed", KEY_SEED, "N", 0, "for methods that draw random numbers; the same seed gives the same model", 0},
+    {"seed", KEY_SEED, "N", 0, "accepted: no method draws random numbers, every seed gives the same model", 0},
     {"help", 'h', NULL, 0, "this text", 0},
     {0}};
 

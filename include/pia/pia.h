@@ -427,7 +427,7 @@ const pia_index *pia_model_dropped(const pia_model *model, pia_index *count);
  * surface. Report, notes and parameters of a fit come along. Errors: PIA_E_ARGUMENT (a curve, a count), PIA_E_DATA (names loop and
  * vertex), MEMORY, SIZE. Cost O(n log n) for n vertices, O(n^2) for wildly folded ones.
  * Evaluation, closest points, length and bounds are those of the whole surface; knot insertion and removal and degree elevation keep
- * the loops; JSON, STEP and IGES files hold them, an OBJ mesh ends at them, other formats hold the whole surface. */
+ * the loops; JSON, STEP and IGES files hold them, OBJ meshes and pictures end at them, other formats hold the whole surface. */
 pia_status pia_model_trim(pia_context *context, const pia_model *model, pia_index loop_count, const pia_index *vertex_counts,
                           const double *uv, pia_model **out);
 /* How to find the outline of points. */
