@@ -43,6 +43,6 @@ int main(int argc, char **argv)
 {
     int count = 0;
     for (int i = 1; i < argc; i++) count += replay_folder(argv[i]);
-    printf("%d files\n", count);
+    fprintf(stderr, "%d files\n", count);           /* standard output is the target's */
     return count > 0 ? EXIT_SUCCESS : EXIT_FAILURE; /* an empty corpus tests nothing */
 }
