@@ -29,7 +29,8 @@ int is_model_name(const char *path, const char *format)
 
 const char *format_of(const char *path, const char *format, const char *otherwise)
 {
-    return format || *extension_of(path) ? format : otherwise;
+    int inside = strstr(path, ":/") != NULL; /* FILE.h5:/NAME, which the library takes apart */
+    return format || inside || *extension_of(path) ? format : otherwise;
 }
 
 int is_picture(const char *path, const char *format)

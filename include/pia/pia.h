@@ -560,7 +560,7 @@ typedef struct pia_points_info {
     const char *format;       /* what it was read as */
 } pia_points_info;
 
-/* Points of a file; path "-" is standard input. Errors: PIA_E_ARGUMENT, FILE, FORMAT (file:line: ...), UNAVAILABLE, MEMORY, SIZE. */
+/* Points of a file; path "-" is standard input, "FILE.h5:/NAME" an array of an HDF5 file. Errors: PIA_E_ARGUMENT, FILE, FORMAT (file:line: ...), UNAVAILABLE, MEMORY, SIZE. */
 pia_status pia_points_read(pia_context *context, const char *path, const pia_points_options *options, pia_points **out);
 /* Fills *out; its arrays live as long as `points`. */
 void pia_points_get_info(const pia_points *points, pia_points_info *out);

@@ -3,26 +3,13 @@
 
 #include <cstdio>
 #include <exception>
-#include <sys/resource.h>
-#include <sys/stat.h>
 
 #include <Standard_Failure.hxx>
 #include <TopAbs.hxx>
 #include <TopExp_Explorer.hxx>
 #include <TopoDS.hxx>
 
-// A damaged file may make OpenCASCADE loop or allocate without end: time and memory are those a sound file of its size needs, amply.
-static void limit(const char *path)
-{
-    struct stat about;
-    rlim_t size = stat(path, &about) == 0 && about.st_size > 0 ? (rlim_t)about.st_size : 0;
-    const struct rlimit seconds = {60 + size / 20000, 60 + size / 20000}, bytes = {(rlim_t)2 << 30, RLIM_INFINITY}, none = {0, 0};
-    struct rlimit memory = bytes;
-    memory.rlim_cur += 200 * size;
-    setrlimit(RLIMIT_CPU, &seconds);
-    setrlimit(RLIMIT_AS, &memory);
-    setrlimit(RLIMIT_CORE, &none);
-}
+#include "plugin_limit.h"
 
 static void send_all(const TopoDS_Shape &shape)
 {
@@ -43,7 +30,7 @@ int main(int argc, char **argv)
         std::fprintf(stderr, "usage: pia-occt step|iges|brep PATH 3>RECORDS\n");
         return 2;
     }
-    limit(argv[2]);
+    plugin_limit(argv[2], 20000, 200);
     try {
         send_all(read_shape(argv[1], argv[2]));
         send_end();

@@ -24,7 +24,4 @@ enum {
     PIA_OCCT_HEAD
 };
 
-/* Where the records go: the file descriptor that the library opened for them. */
-enum { PIA_OCCT_CHANNEL = 3 };
-
 #endif

@@ -5,12 +5,13 @@
 #include <unistd.h>
 
 #include "occt_records.h"
+#include "plugin_channel.h"
 
 static void send_bytes(const void *bytes, size_t size)
 {
     const char *at = static_cast<const char *>(bytes);
     while (size > 0) {
-        ssize_t written = write(PIA_OCCT_CHANNEL, at, size);
+        ssize_t written = write(PIA_PLUGIN_CHANNEL, at, size);
         if (written < 0 && errno == EINTR) continue;
         if (written <= 0) throw std::runtime_error("nobody reads the records");
         at += written;

@@ -1,6 +1,7 @@
 #include "io.h"
 #include "options.h"
 
+#include <limits.h>
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -55,10 +56,14 @@ pia_status pia_points_read(pia_context *context, const char *path, const pia_poi
     pia_status status = pia_options_read(context, "pia_points_options", &o, sizeof o, options);
     if (status != PIA_OK) return status;
     if (out == NULL || path == NULL) return pia_fail(context, PIA_E_ARGUMENT, "a path and an output are needed");
+    char file[PATH_MAX];
+    const char *inside = pia_format_inside(o.format, path);
     pia_input input;
-    status = pia_input_open(context, path, &input);
+    snprintf(file, sizeof file, "%.*s", inside != NULL ? (int)(inside - 1 - path) : (int)strlen(path), path);
+    status = pia_input_open(context, inside != NULL ? file : path, &input);
     if (status != PIA_OK) return status;
-    status = read_points(context, path, &input, &o, out);
+    input.inside = inside;
+    status = read_points(context, inside != NULL ? file : path, &input, &o, out);
     pia_input_close(context, &input);
     return status;
 }

@@ -4,9 +4,9 @@
 #include "kernel.h"
 #include "limit.h"
 #include "method.h"
-#include "occt.h"
 #include "param.h"
 #include "place.h"
+#include "plugin.h"
 
 #include <string.h>
 
@@ -38,9 +38,9 @@ static int list_formats(pia_index index, pia_entry *out)
     const pia_format *f = pia_format_list(index);
     if (f == NULL) return 0;
     const char *detail = f->detail;
-    if (f->reads_by_plugin && !pia_occt_is_there())
-        detail = f->write_models != NULL ? "writes curves, surfaces and trimmed faces, exact to the bit; reading needs the part occt"
-                                         : "reading needs the part occt";
+    if (f->plugin != NULL && !pia_plugin_is_there(f->plugin))
+        detail = f->write_models != NULL ? "writes curves, surfaces and trimmed faces, exact to the bit; reading needs an optional part"
+                                         : "reading needs an optional part, see `pia list parts`";
     return fill(out, f->name, f->title, f->reference, detail);
 }
 
@@ -53,7 +53,8 @@ static int list_parts(pia_index index, pia_entry *out)
     } part[] = {
         {"cairo", "pictures as SVG, PNG and PDF", PIA_HAVE_CAIRO},
         {"cholmod", "sparse Cholesky for scattered surfaces", PIA_HAVE_CHOLMOD},
-        {"occt", "STEP, IGES and BREP read by OpenCASCADE, a plug-in", pia_occt_is_there()},
+        {"occt", "STEP, IGES and BREP read by OpenCASCADE, a plug-in", pia_plugin_is_there(&pia_plugin_occt)},
+        {"hdf5", "arrays of HDF5 files, a plug-in", pia_plugin_is_there(&pia_plugin_hdf5)},
     };
     if (index >= (pia_index)(sizeof part / sizeof *part)) return 0;
     return fill(out, part[index].name, part[index].title, NULL, part[index].here ? "in this build" : "not in this build");

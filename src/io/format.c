@@ -1,5 +1,7 @@
 #include "io.h"
 
+#include <limits.h>
+#include <stdio.h>
 #include <string.h>
 #include <strings.h>
 
@@ -29,6 +31,17 @@ const pia_format *pia_format_find(const char *name, const char *path)
     for (pia_index i = 0; (format = pia_format_list(i)) != NULL; i++) {
         if (name != NULL && strcmp(name, format->name) == 0) return format;
         if (holds_word(format->extensions, extension, strlen(extension))) return format;
+    }
+    return NULL;
+}
+
+const char *pia_format_inside(const char *name, const char *path)
+{
+    char file[PATH_MAX];
+    for (const char *at = path; (at = strstr(at, ":/")) != NULL; at++) {
+        snprintf(file, sizeof file, "%.*s", (int)(at - path), path);
+        const pia_format *format = pia_format_find(name, file);
+        if (format != NULL && format->holds_arrays) return at + 1;
     }
     return NULL;
 }

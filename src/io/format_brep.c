@@ -12,5 +12,5 @@ const pia_format pia_format_brep = {
     .detail = "reads every curve and surface, with trim loops",
     .extensions = "brep brp",
     .read_models = read_models,
-    .reads_by_plugin = 1,
+    .plugin = &pia_plugin_occt,
 };

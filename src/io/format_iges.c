@@ -28,6 +28,6 @@ const pia_format pia_format_iges = {
     .detail = "reads and writes curves, surfaces and trimmed surfaces, exact to the bit; several in a file",
     .extensions = "igs iges",
     .read_models = read_models,
-    .reads_by_plugin = 1,
+    .plugin = &pia_plugin_occt,
     .write_models = write_models,
 };

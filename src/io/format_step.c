@@ -58,6 +58,6 @@ const pia_format pia_format_step = {
     .detail = "reads and writes curves, surfaces and trimmed faces, exact to the bit; several in a file",
     .extensions = "stp step",
     .read_models = read_models,
-    .reads_by_plugin = 1,
+    .plugin = &pia_plugin_occt,
     .write_models = write_models,
 };

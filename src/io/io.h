@@ -9,7 +9,8 @@
 /* A file in memory: mapped when it is a regular file, else read whole. Readers never look outside [begin, end); no NUL follows.
  * A mapped file that another program shortens meanwhile ends the process (SIGBUS), as with any mapping. */
 typedef struct pia_input {
-    const char *path; /* as the messages name it; "standard input" for "-" */
+    const char *path;   /* as the messages name it; "standard input" for "-" */
+    const char *inside; /* "/NAME" of what is wanted of a file that holds several arrays; NULL: nothing was named */
     const char *begin, *end;
     void *block; /* what to unmap or give back */
     int mapped;
@@ -61,6 +62,8 @@ pia_status pia_points_screen(pia_context *context, const pia_input *input, const
 pia_status pia_model_sample(pia_context *context, const pia_model *model, pia_index samples, double **parameters, double **points,
                             pia_index count[2]);
 
+typedef struct pia_plugin pia_plugin;
+
 typedef struct pia_format {
     const char *name, *title, *reference, *detail;
     const char *extensions; /* "csv txt xyz dat" */
@@ -70,13 +73,17 @@ typedef struct pia_format {
                                const pia_write_options *options); /* whole; the name is never NULL */
     pia_status (*write_table)(pia_context *context, pia_output *output, const char *header, const double *values, pia_index rows,
                               int columns);
-    int reads_by_plugin; /* 1: read_models needs the plug-in pia-occt (occt.h) */
-} pia_format;            /* a NULL entry: the format cannot do that. Readers leave `out` as it was on failure, apart from what
-                            pia_points_clear gives back */
+    const pia_plugin *plugin; /* the program that reading needs (plugin.h); NULL: none */
+    int holds_arrays;         /* 1: FILE:/NAME is the array NAME of FILE */
+} pia_format;                 /* a NULL entry: the format cannot do that. Readers leave `out` as it was on failure, apart from what
+                                 pia_points_clear gives back */
 
 /* The registry, collected from the files format_*.c; NULL past the end. */
 const pia_format *pia_format_list(pia_index index);
 /* By name or extension in `name`, or by the extension of path when name is NULL; NULL when unknown. */
 const pia_format *pia_format_find(const char *name, const char *path);
+/* Where "/NAME" begins in a path that names an array within a file: FILE:/NAME, FILE being of a format that holds arrays, by `name` or
+ * by its extension. NULL: path is that of a file. */
+const char *pia_format_inside(const char *name, const char *path);
 
 #endif

@@ -3,17 +3,11 @@
 #ifndef PIA_IO_OCCT_H
 #define PIA_IO_OCCT_H
 
-#include "io.h"
+#include "plugin.h"
 
 /* format: "step", "iges" or "brep". PIA_E_UNAVAILABLE without the plug-in, naming what to install; PIA_E_FORMAT, FILE, MEMORY. A face
  * whose loops are not simple comes as the whole surface, with a warning to the log. Lengths are millimetres. */
 pia_status pia_occt_read(pia_context *context, const pia_input *input, const char *format, pia_model ***out, pia_index *count);
-
-/* Whether the plug-in was found: in the folders of PIA_PLUGIN_PATH, or in lib/pia beside the library or the program. */
-int pia_occt_is_there(void);
-
-/* What the plug-in said, byte for byte; taken with pia_take. `crashed`: it ended by a signal or said nothing. */
-pia_status pia_occt_run(pia_context *context, const pia_input *input, const char *format, char **bytes, pia_index *size);
 
 /* The models in what the plug-in said. */
 pia_status pia_occt_parse(pia_context *context, const pia_input *input, const char *bytes, pia_index size, pia_model ***out,

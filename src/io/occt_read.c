@@ -5,6 +5,8 @@
 
 #include "occt_records.h"
 
+const pia_plugin pia_plugin_occt = {.program = "pia-occt", .part = "OCCT", .packages = "libocct-data-exchange-dev and g++"};
+
 /* The records while they are read: 64-bit values from `at` on. */
 typedef struct reader {
     pia_context *context;
@@ -14,8 +16,7 @@ typedef struct reader {
 
 static pia_status fail_cut(reader *r)
 {
-    return pia_input_fail(r->context, r->input, NULL,
-                          "the plug-in pia-occt broke off while reading it; the file is damaged or needs more memory than there is");
+    return pia_plugin_broke_off(r->context, r->input, &pia_plugin_occt);
 }
 
 static pia_status read_integers(reader *r, pia_index *out, pia_index count)
@@ -175,7 +176,7 @@ pia_status pia_occt_read(pia_context *context, const pia_input *input, const cha
 {
     char *bytes;
     pia_index size;
-    pia_status status = pia_occt_run(context, input, format, &bytes, &size);
+    pia_status status = pia_plugin_run(context, input, &pia_plugin_occt, format, &bytes, &size);
     if (status != PIA_OK) return status;
     status = pia_occt_parse(context, input, bytes, size, out, count);
     pia_give(context, bytes);
