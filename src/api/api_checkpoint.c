@@ -61,7 +61,7 @@ static void put_limit_history(void *user, const char *name, double *numbers, pia
     array(user, section, PIA_SECTION_DOUBLE, numbers, count);
 }
 
-enum { INDEX_COUNT = 25 };
+enum { INDEX_COUNT = 26 };
 
 static void shape(walk *w, pia_fit *fit)
 {
@@ -69,7 +69,8 @@ static void shape(walk *w, pia_fit *fit)
                                 fit->count[1],  fit->rows,       fit->given,     fit->dropped_count,    fit->has_holes,
                                 fit->square,    fit->degree[0],  fit->degree[1], fit->closed[0],        fit->closed[1],
                                 fit->full[0],   fit->full[1],    fit->map[0],    fit->map[1],           fit->offset[0],
-                                fit->offset[1], fit->refining,   fit->round,     fit->constraint_count, fit->parameters_moved};
+                                fit->offset[1], fit->refining,   fit->round,     fit->constraint_count, fit->parameters_moved,
+                                fit->pinned};
     array(w, "shape", PIA_SECTION_INDEX, v, INDEX_COUNT);
     if (w->writer != NULL || w->status != PIA_OK) return;
     fit->kind = (pia_kind)v[0];
@@ -85,6 +86,7 @@ static void shape(walk *w, pia_fit *fit)
     fit->round = v[22];
     fit->constraint_count = v[23];
     fit->parameters_moved = (int)v[24];
+    fit->pinned = (int)v[25];
     for (int d = 0; d < 2; d++) {
         fit->count[d] = v[4 + d];
         fit->degree[d] = (int)v[11 + d];
@@ -284,14 +286,15 @@ static void progress(walk *w, pia_fit *fit)
     pia_solve *s = &fit->solve;
     pia_iterate *it = &fit->iterate;
     pia_index size = fit->op->cols * fit->dim;
-    pia_index v[7] = {it->iteration, (pia_index)s->stop,  s->best_iteration, s->first_iteration,
-                      s->blocked,    s->window_iteration, s->standing};
-    double r[10] = {s->seconds,    s->start_error, s->rate,        s->safe_error,         s->last_error,
-                    s->best_error, it->damping,    it->adjust_max, it->relative_gradient, s->window_error};
+    pia_index v[9] = {it->iteration,       (pia_index)s->stop, s->best_iteration, s->first_iteration, s->blocked,
+                      s->window_iteration, s->standing,        fit->paused,       fit->watch.idle};
+    double r[12] = {s->seconds,       s->start_error,    s->rate,        s->safe_error,         s->last_error,
+                    s->best_error,    it->damping,       it->adjust_max, it->relative_gradient, s->window_error,
+                    fit->watch.worst, fit->watch.squares};
     array(w, "points_now", PIA_SECTION_DOUBLE, it->points, size);
     optional(w, "safe", PIA_SECTION_DOUBLE, &s->safe, size);
-    array(w, "loop_counts", PIA_SECTION_INDEX, v, 7);
-    array(w, "loop", PIA_SECTION_DOUBLE, r, 10);
+    array(w, "loop_counts", PIA_SECTION_INDEX, v, 9);
+    array(w, "loop", PIA_SECTION_DOUBLE, r, 12);
     if (s->method->history != NULL && s->method_state != NULL) s->method->history(it, s->method_state, put_history, w);
     if (s->limiter != NULL && s->limiter->history != NULL) s->limiter->history(it, s->limiter_state, put_limit_history, w);
     if (w->writer != NULL || w->status != PIA_OK) return;
@@ -302,6 +305,8 @@ static void progress(walk *w, pia_fit *fit)
     s->blocked = v[4];
     s->window_iteration = v[5];
     s->standing = (int)v[6];
+    fit->paused = (int)v[7];
+    fit->watch = (pia_watch){r[10], r[11], v[8]};
     s->seconds = r[0];
     s->start_error = r[1];
     s->rate = r[2];

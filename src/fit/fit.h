@@ -40,6 +40,12 @@ typedef struct pia_robust {
     double *product; /* [rows] both, for the operator */
 } pia_robust;
 
+/* Of growth that refines: whether it still helps. */
+typedef struct pia_watch {
+    double worst, squares; /* when it last did */
+    pia_index idle;        /* rounds since */
+} pia_watch;
+
 struct pia_fit {
     pia_context *context;
     pia_fit_options options; /* texts and arrays of it are valid during open only */
@@ -97,6 +103,7 @@ struct pia_fit {
     int pinned;                      /* 1: the ends of the curve are the first and the last row */
     pia_index refined_until;         /* of a refinement: the iteration at which it pauses */
     int paused;                      /* 1: it did, with work left */
+    pia_watch watch;                 /* of a refinement of scattered points, across its pauses */
     double *relaxed;                 /* of a refinement: where the last search by relaxation came to, [rows x dim]; NULL: none yet */
     double relaxation;               /* rows passed over by all of them, which is limited */
     int factored;                    /* of a refinement: 1: the equations have factors; 2: and those of data and constraints together */

@@ -43,6 +43,8 @@ pia_status pia_refine(pia_fit *fit, pia_index iterations)
 {
     pia_index done = fit->iterate.iteration;
     fit->refined_until = iterations > INT64_MAX - done ? INT64_MAX : done + iterations;
+    if (fit->round > 0) pia_iterate_measure(&fit->iterate);
+    if (!fit->paused) fit->watch = (pia_watch){0};
     fit->paused = 0;
     fit->began = pia_seconds() - fit->solve.seconds;
     int adds_lines = fit->placement != NULL && fit->placement->adds_lines;

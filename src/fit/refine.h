@@ -66,12 +66,10 @@ int pia_refine_stopped(pia_fit *fit);
 /* Counts a round that has just been done, and traces it. */
 pia_status pia_refine_count(pia_fit *fit);
 
-/* Of growth: whether it still helps. Starts as zeroes. Scattered points only; for others always 1. */
-typedef struct pia_watch {
-    double worst, squares; /* when it last did */
-    int idle;              /* rounds since */
-} pia_watch;
-int pia_refine_helps(const pia_fit *fit, pia_watch *watch);
+/* Whether growth still helps, by fit->watch, which the second brings up to the round just done. Scattered points only; for others
+ * always 1. */
+int pia_refine_helps(const pia_fit *fit);
+void pia_refine_watch(pia_fit *fit);
 /* Scattered points whose true distance counts: parameters to the foot points, and least squares there. Taken back, with *better 0,
  * where that brings nothing, or loses the tolerance. */
 pia_status pia_refine_move_to_feet(pia_fit *fit, int *better);

@@ -11,17 +11,17 @@ enum { PATIENCE = 4 };
 /* Growth helps while the largest ratio or the RMS deviation falls by this factor within PATIENCE rounds. */
 static const double HELPS = 0.97;
 
-int pia_refine_helps(const pia_fit *fit, pia_watch *watch)
+int pia_refine_helps(const pia_fit *fit)
 {
+    return fit->kind != PIA_SCATTERED || (fit->op->cols < fit->rows && fit->watch.idle < PATIENCE);
+}
+
+void pia_refine_watch(pia_fit *fit)
+{
+    pia_watch *watch = &fit->watch;
     double worst = pia_refine_worst(fit, 0, fit->rows), squares = fit->iterate.errors.sum_squares;
-    if (fit->kind != PIA_SCATTERED) return 1;
-    if (fit->op->cols >= fit->rows) return 0;
-    watch->idle++;
-    if (watch->worst == 0 || worst < HELPS * watch->worst || squares < HELPS * HELPS * watch->squares) watch->idle = 0;
-    if (watch->idle > 0) return watch->idle < PATIENCE;
-    watch->worst = worst;
-    watch->squares = squares;
-    return 1;
+    int helped = watch->worst == 0 || worst < HELPS * watch->worst || squares < HELPS * HELPS * watch->squares;
+    *watch = helped ? (pia_watch){worst, squares, 0} : (pia_watch){watch->worst, watch->squares, watch->idle + 1};
 }
 
 pia_status pia_refine_move_to_feet(pia_fit *fit, int *better)

@@ -126,14 +126,14 @@ pia_status pia_refine_surface(pia_fit *fit)
 {
     pia_status status = fit->round == 0 ? pia_refine_solve(fit) : PIA_OK;
     if (status == PIA_OK && fit->round == 0 && fit->solve.rules.trace_every > 0) status = pia_solve_trace(&fit->solve);
-    pia_watch watch = {0};
-    int more = 1, better = 1;
+    int more = pia_refine_helps(fit), better = 1;
     for (int k = 0; k < MAX_GROWTH && status == PIA_OK && more && !pia_refine_reached(fit) && !pia_refine_stopped(fit); k++) {
         status = grow(fit, &more);
         if (status == PIA_OK && more) status = pia_refine_move_to_feet(fit, &better);
         if (status == PIA_OK) status = pia_refine_relax(fit);
         if (status == PIA_OK && more) status = pia_refine_count(fit);
-        more = more && status == PIA_OK && pia_refine_helps(fit, &watch);
+        if (status == PIA_OK && more) pia_refine_watch(fit);
+        more = more && pia_refine_helps(fit);
     }
     for (int k = 0; k < MAX_FEET && status == PIA_OK && better && !pia_refine_reached(fit) && !pia_refine_stopped(fit); k++)
         status = pia_refine_move_to_feet(fit, &better);

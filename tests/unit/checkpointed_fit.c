@@ -115,6 +115,115 @@ static void epia_goes_on_inserting_the_same_knots(void **state)
     check_fit(&options);
 }
 
+/* One step, then the fit is saved, closed and resumed. */
+static void step_and_resume(pia_context *context, pia_fit **fit, const char *path, pia_report *report)
+{
+    assert_ok(context, pia_fit_step(*fit, 1, report));
+    assert_ok(context, pia_fit_save(*fit, path));
+    pia_fit_close(*fit);
+    assert_ok(context, pia_fit_resume(context, path, fit));
+}
+
+/* A fit that is saved, closed and resumed after every iteration ends with the bits of one that is not. */
+static void check_pauses(const pia_data *data, const pia_fit_options *options, pia_report *a)
+{
+    pia_context *context;
+    assert_int_equal(pia_context_create(NULL, &context), PIA_OK);
+    char path[] = "/tmp/pia_checkpoint_XXXXXX";
+    close(mkstemp(path));
+    pia_fit *whole, *paused;
+    pia_report b = {.struct_size = sizeof b};
+    *a = b;
+    assert_ok(context, pia_fit_open(context, data, options, &whole));
+    assert_ok(context, pia_fit_step(whole, 1000, a));
+    assert_ok(context, pia_fit_open(context, data, options, &paused));
+    while (b.stop == PIA_STOP_NONE) step_and_resume(context, &paused, path, &b);
+    assert_int_equal(b.stop, a->stop);
+    assert_int_equal(b.iterations, a->iterations);
+    assert_int_equal(b.control_count, a->control_count);
+    pia_model *m, *n;
+    assert_ok(context, pia_fit_model(whole, &m));
+    assert_ok(context, pia_fit_model(paused, &n));
+    compare_models(m, n);
+    pia_model_destroy(m);
+    pia_model_destroy(n);
+    pia_fit_close(whole);
+    pia_fit_close(paused);
+    pia_context_destroy(context);
+    unlink(path);
+}
+
+static void refining_a_curve_goes_on_with_the_same_bits(void **state)
+{
+    (void)state;
+    pia_index corner[] = {20}, meet[] = {10, 41};
+    double points[2 * ROWS];
+    for (int closed = 0; closed < 2; closed++)
+        for (int variant = 0; variant < 4; variant++) {
+            fill(points, closed);
+            pia_data data;
+            pia_data_init(&data);
+            data.points = points;
+            data.count[0] = ROWS;
+            data.dim = 2;
+            pia_fit_options options;
+            pia_fit_options_init(&options);
+            options.closed[0] = closed;
+            options.tolerance = 0.01;
+            options.measure_distance = variant == 1;
+            options.corners = corner;
+            options.corner_count = variant == 2;
+            options.interpolate = meet;
+            options.interpolate_count = variant == 3 ? 2 : 0;
+            pia_report report;
+            check_pauses(&data, &options, &report);
+            assert_int_equal(report.stop, PIA_STOP_TOLERANCE);
+        }
+}
+
+enum { SIDE = 40 };
+
+/* Points over the unit square, in lines or not, of a wave or of noise alone. */
+static void fill_sheet(double *points, int in_lines, int noise)
+{
+    unsigned long long random = 1;
+    for (int i = 0; i < SIDE * SIDE; i++) {
+        double *p = points + 3 * i;
+        for (int d = 0; d < 3; d++) {
+            random = random * 6364136223846793005ULL + 1442695040888963407ULL;
+            p[d] = (double)(random >> 33) / 2147483648.0;
+        }
+        if (in_lines) p[0] = i / SIDE, p[1] = i % SIDE;
+        if (!noise) p[2] = sin(5 * p[0] / (in_lines ? SIDE : 1)) * cos(4 * p[1] / (in_lines ? SIDE : 1));
+    }
+}
+
+/* Noise has no knots to find: growth is given up after some rounds that do not help, however often they are interrupted. */
+static void refining_a_surface_goes_on_with_the_same_bits(void **state)
+{
+    (void)state;
+    static double points[3 * SIDE * SIDE];
+    for (int scattered = 0; scattered < 2; scattered++)
+        for (int distance = 0; distance <= scattered; distance++)
+            for (int noise = 0; noise < 2; noise++) {
+                fill_sheet(points, !scattered, noise);
+                pia_data data;
+                pia_data_init(&data);
+                data.points = points;
+                data.kind = scattered ? PIA_SCATTERED : PIA_GRID;
+                data.count[0] = scattered ? SIDE * SIDE : SIDE;
+                data.count[1] = scattered ? 1 : SIDE;
+                data.dim = 3;
+                pia_fit_options options;
+                pia_fit_options_init(&options);
+                options.parametrization = scattered ? "xy" : NULL;
+                options.measure_distance = distance;
+                options.tolerance = noise ? 0.05 : 0.001;
+                pia_report report;
+                check_pauses(&data, &options, &report);
+            }
+}
+
 static void a_damaged_checkpoint_is_refused(void **state)
 {
     (void)state;
@@ -172,10 +281,9 @@ static void limiters_losses_fairing_and_gaps_go_on_as_well(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(limiters_losses_fairing_and_gaps_go_on_as_well),
-        cmocka_unit_test(every_method_goes_on_with_the_same_bits),
-        cmocka_unit_test(epia_goes_on_inserting_the_same_knots),
-        cmocka_unit_test(a_damaged_checkpoint_is_refused),
+        cmocka_unit_test(limiters_losses_fairing_and_gaps_go_on_as_well), cmocka_unit_test(every_method_goes_on_with_the_same_bits),
+        cmocka_unit_test(epia_goes_on_inserting_the_same_knots),          cmocka_unit_test(refining_a_curve_goes_on_with_the_same_bits),
+        cmocka_unit_test(refining_a_surface_goes_on_with_the_same_bits),  cmocka_unit_test(a_damaged_checkpoint_is_refused),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
