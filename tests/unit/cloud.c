@@ -84,6 +84,41 @@ static void a_sphere_has_longitude_and_latitude(void **state)
     }
 }
 
+/* Points of the part of a sphere above a height, its top towards (1, 2, 2) / 3. */
+static void dome(double *points, double height)
+{
+    static const double x[3] = {2.0 / 3, 1.0 / 3, -2.0 / 3}, y[3] = {-2.0 / 3, 2.0 / 3, -1.0 / 3}, z[3] = {1.0 / 3, 2.0 / 3, 2.0 / 3};
+    uint64_t seed = 5;
+    for (int i = 0; i < COUNT; i++) {
+        double h = height + (1 - height) * random_share(&seed), a = 6.283185307179586 * random_share(&seed), r = sqrt(1 - h * h);
+        for (int d = 0; d < 3; d++) points[3 * i + d] = 7 * d + 4 * (r * cos(a) * x[d] + r * sin(a) * y[d] + h * z[d]);
+    }
+}
+
+/* Neighbours on a dome are neighbours in the parameters, and the other way round: no pole and no seam among the points. */
+static void a_dome_is_a_disc(void **state)
+{
+    static double points[3 * COUNT], uv[2 * COUNT];
+    const double height[] = {0.3, 0, -0.4, -0.8};
+    for (int k = 0; k < 4; k++) {
+        int closed;
+        dome(points, height[k]);
+        assert_ok(*state, pia_cloud_find("sphere")->compute(*state, points, COUNT, 3, uv, &closed));
+        assert_int_equal(closed, 0);
+        double least = INFINITY, most = 0;
+        for (int i = 0; i < COUNT; i++)
+            for (int j = 0; j < i; j++) {
+                double square = 0;
+                for (int d = 0; d < 3; d++) square += pow(points[3 * i + d] - points[3 * j + d], 2);
+                if (square > 1 || square < 1e-6) continue;
+                double stretch = hypot(uv[2 * i] - uv[2 * j], uv[2 * i + 1] - uv[2 * j + 1]) / sqrt(square);
+                least = fmin(least, stretch);
+                most = fmax(most, stretch);
+            }
+        assert_true(most < 6 * least);
+    }
+}
+
 static void a_tilted_sheet_is_flat_on_its_best_plane_and_seen_from_above_by_xy(void **state)
 {
     static double points[3 * COUNT], truth[2 * COUNT], uv[2 * COUNT];
@@ -129,6 +164,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_whole_cylinder_is_closed_and_a_half_one_is_not),
         cmocka_unit_test(a_sphere_has_longitude_and_latitude),
+        cmocka_unit_test(a_dome_is_a_disc),
         cmocka_unit_test(a_tilted_sheet_is_flat_on_its_best_plane_and_seen_from_above_by_xy),
         cmocka_unit_test(points_on_one_line_are_refused),
     };
