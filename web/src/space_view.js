@@ -18,6 +18,15 @@ ColorManagement.enabled = false; // colours are written as they are to be seen
 const FINE = 200, MOST_FINE = 256, FIELD = 28, LINE_STEPS = 160, MOST_LINES = 90, SLOW = 36;
 const HOME = {azimuth: -55, elevation: 32, distance: 1};
 
+/** The vertices of a loop and points between them: a side that is straight in the parameter plane is a curve in space. */
+function refined(loop, domain) {
+    return loop.flatMap((a, i) => {
+        const b = loop[(i + 1) % loop.length];
+        const steps = Math.max(1, ...[0, 1].map(d => Math.ceil(LINE_STEPS * Math.abs(b[d] - a[d]) / (domain[d][1] - domain[d][0]))));
+        return Array.from({length: steps}, (_, k) => [0, 1].map(d => a[d] + (b[d] - a[d]) * k / steps));
+    });
+}
+
 export class SpaceView {
     constructor(element, model, state) {
         Object.assign(this, {element, model, state});
@@ -260,7 +269,7 @@ export class SpaceView {
             const {spline, trim} = figure;
             if (trim.length && !inside) {
                 for (const loop of trim) {
-                    const spots = loop.map(([u, v]) => spline.lattice([u], [v], 0).s);
+                    const spots = refined(loop, spline.domain).map(([u, v]) => spline.lattice([u], [v], 0).s);
                     spots.forEach((spot, i) => out.push(...spot, ...spots[(i + 1) % spots.length]));
                 }
                 continue;
