@@ -5,7 +5,7 @@
 #include <math.h>
 #include <string.h>
 
-enum { CURVE_SAMPLES = 20000, CURVE_SPANS = 2000000, MOST_PIECES = 256, TEETH = 500, STROKES = 6 };
+enum { CURVE_SAMPLES = 20000, CURVE_SPANS = 2000000, MOST_PIECES = 256, TEETH = 500, STROKES = 120 };
 static const double largest_drawn = 1e150;
 
 static pia_index count_spans(const double *knots, int degree, pia_index control)
@@ -129,34 +129,51 @@ static pia_status sample_shape(pia_context *context, pia_figure *figure)
     return place_lattice(context, figure->model, s[0].parameter, s[0].count, s[1].parameter, s[1].count, figure->at);
 }
 
-/* Strokes along the sides of a loop: straight in the parameters, bent in space. */
-static double *stroke_loop(const double *loop, pia_index count, double *to)
+/* Strokes along a side of a loop, which is straight in the parameters and bent in space: STROKES across the domain. */
+static pia_index stroke_count(const pia_model_info *info, const double *a, const double *b)
 {
+    double share = 0;
+    for (int d = 0; d < 2; d++) share = fmax(share, fabs(b[d] - a[d]) / (info->domain[d][1] - info->domain[d][0]));
+    return 1 + (pia_index)(STROKES * share);
+}
+
+/* The two ends of every stroke of a loop, to `to` unless it is NULL; returns their number. */
+static pia_index stroke_loop(const pia_model_info *info, const double *loop, pia_index count, double *to)
+{
+    pia_index ends = 0;
     for (pia_index i = 0; i < count; i++) {
         const double *a = loop + 2 * i, *b = loop + 2 * ((i + 1) % count);
-        for (int k = 0; k < 2 * STROKES; k++)
-            for (int d = 0; d < 2; d++) *to++ = a[d] + (b[d] - a[d]) * ((k + 1) / 2) / STROKES;
+        pia_index strokes = stroke_count(info, a, b);
+        for (pia_index k = 0; k < 2 * strokes && to != NULL; k++)
+            for (int d = 0; d < 2; d++) *to++ = a[d] + (b[d] - a[d]) * (double)((k + 1) / 2) / (double)strokes;
+        ends += 2 * strokes;
     }
-    return to;
+    return ends;
+}
+
+static pia_index stroke_loops(const pia_figure *figure, double *to)
+{
+    pia_index ends = 0, count = 0;
+    for (pia_index k = 0; k < pia_model_trim_loop_count(figure->model); k++) {
+        const double *loop = pia_model_trim_loop(figure->model, k, &count);
+        ends += stroke_loop(&figure->info, loop, count, to != NULL ? to + 2 * ends : NULL);
+    }
+    return ends;
 }
 
 /* Which samples the trim loops of a surface cut away, and where its edges are. */
 static pia_status sample_trim(pia_context *context, pia_figure *figure)
 {
     const pia_samples *s = figure->samples;
-    pia_index loops = pia_model_trim_loop_count(figure->model), count = 0, ends, sample = 0;
-    if (loops == 0) return PIA_OK;
-    for (pia_index k = 0; k < loops; k++, figure->edge_count += STROKES * count) pia_model_trim_loop(figure->model, k, &count);
-    ends = 2 * figure->edge_count;
-    double *parameter = pia_take(context, ends, 2 * sizeof *parameter), *to = parameter;
+    pia_index ends = stroke_loops(figure, NULL), sample = 0;
+    if (ends == 0) return PIA_OK;
+    figure->edge_count = ends / 2;
+    double *parameter = pia_take(context, ends, 2 * sizeof *parameter);
     double *value = pia_take(context, ends, (size_t)figure->info.dim * sizeof *value);
     figure->edge = pia_take(context, ends, 3 * sizeof *figure->edge);
     figure->outside = pia_take(context, s[0].count * s[1].count, 1);
     int all = parameter != NULL && value != NULL && figure->edge != NULL && figure->outside != NULL;
-    for (pia_index k = 0; k < loops && all; k++) {
-        const double *loop = pia_model_trim_loop(figure->model, k, &count);
-        to = stroke_loop(loop, count, to);
-    }
+    if (all) stroke_loops(figure, parameter);
     pia_status status = all ? pia_model_eval(context, figure->model, parameter, ends, 0, value) : PIA_E_MEMORY;
     if (status == PIA_OK) status = place_all(context, &figure->info, parameter, value, ends, figure->info.dim, figure->edge);
     for (pia_index i = 0; i < s[0].count && status == PIA_OK; i++)
