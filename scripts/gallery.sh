@@ -129,12 +129,63 @@ pia fit data/curve3d/tball_pass.csv --tolerance 0.02 -o toolpath.json -o toolpat
 pia plot toolpath.json data/curve3d/tball_pass.csv --no-control --no-knots --title 'Pocket' --size 960x680 -o toolpath.png --quiet
 END
 
+show trimmed 'A scan without order, to a trimmed face' <<'END'
+The points of the face, shuffled: to 0.002 as a true distance, trimmed where they end. The picture is drawn from the STEP file as OpenCASCADE reads it.
+
+tail -n +2 data/scan/face_fran_45x49.csv | shuf --random-source=data/dem/jacksboro_344x403.pgm >cloud.csv
+pia fit cloud.csv --columns 1,3,2 --surface --tolerance 0.002 --measure distance -o trimmed.step --report trimmed.html
+pia plot trimmed.step --no-control --no-knots --title 'A trimmed face' --view=-60,15 --size 760x820 -o trimmed.png --quiet
+END
+
+# The report, view by view: its figure alone, in a window of its size.
+view() { # NAME REPORT SIZE HASH
+    sed 's|</head>|<style>#stage{position:fixed;inset:0;z-index:9}.canvas{height:100vh}.legend{position:absolute;inset:8px 10px auto auto;width:220px}</style></head>|' "$2" >alone.html
+    echo "report_$1" >&2
+    "$chromium" --headless --no-sandbox --disable-gpu --enable-unsafe-swiftshader --disable-quic --no-first-run --disable-background-networking \
+        --disable-component-update --disable-sync --hide-scrollbars --force-color-profile=srgb --user-data-dir="$work/profile" --window-size="$3" \
+        --run-all-compositor-stages-before-draw --virtual-time-budget=8000 --screenshot="$out/report_$1.png" \
+        "file://$work/alone.html#theme=light&$4" 2>errors || { cat errors >&2; exit 1; }
+}
+chromium=$(command -v chromium || command -v chromium-browser)
+pia fit data/airfoil/rae2822.dat --tolerance 1e-4 --report curve.html --quiet >/dev/null
+view deviation_bars curve.html 940,360 'show=points+knots+bars'
+view comb curve.html 940,420 'show=comb+knots&view=0.34,0,0.75'
+for mode in shaded deviation zebra isophotes gaussian mean; do
+    view "$mode" trimmed.html 540,540 "mode=$mode&show=edges&view=-62,14,0.95"
+done
+cat >>sections <<'END'
+
+<a id="report"></a>
+
+## The report, view by view
+
+`--report FILE.html` writes a page of its own ([report.md](../report.md)). Its figure shows the airfoil with its deviation, drawn longer, and with its curvature comb:
+
+```sh
+pia fit data/airfoil/rae2822.dat --tolerance 1e-4 --report curve.html
+```
+
+![Airfoil with deviation bars](report_deviation_bars.png)
+
+![Airfoil with its curvature comb](report_comb.png)
+
+and the trimmed face above in each of its ways:
+
+| shaded | deviation |
+| --- | --- |
+| ![Shaded surface](report_shaded.png) | ![Deviation of the surface in colours](report_deviation.png) |
+| **zebra stripes** | **isophotes** |
+| ![Zebra stripes](report_zebra.png) | ![Isophotes](report_isophotes.png) |
+| **Gaussian curvature** | **mean curvature** |
+| ![Gaussian curvature](report_gaussian.png) | ![Mean curvature](report_mean.png) |
+END
+
 {
     cat <<'END'
 # Gallery
 
-Ten fits of real data, each with its command, its picture and what the command said. `./run gallery` makes this page again; where the data
-come from is told in [data/README.md](../../data/README.md). Errors are in the units of the points.
+Eleven fits of real data, each with its command, its picture and what the command said. `./run gallery` makes this page again; where the data
+come from is told in [data/README.md](../../data/README.md). Errors are in the units of the points. [The views of the report](#report) are at the end.
 
 | fit | points | model | largest error | rms error |
 | --- | --- | --- | --- | --- |
