@@ -14,7 +14,7 @@ static const double weak_pivot = 1e-13, ridge = 1e-9;
 pia_status pia_gram_open(pia_context *context, const pia_collocation *line, pia_gram *out)
 {
     pia_gram gram = {.context = context, .line = line, .count = line->unknowns, .width = line->degree};
-    gram.band = pia_take_zero(context, gram.count, (size_t)(gram.width + 1) * sizeof *gram.band);
+    gram.band = pia_take(context, gram.count, (size_t)(gram.width + 1) * sizeof *gram.band);
     if (gram.band == NULL) return pia_take_status(context, gram.count, (size_t)(gram.width + 1) * sizeof *gram.band);
     *out = gram;
     return PIA_OK;
@@ -25,7 +25,7 @@ void pia_gram_close(pia_gram *gram)
     pia_give(gram->context, gram->band);
     pia_give(gram->context, gram->factor);
     pia_give(gram->context, gram->border);
-    pia_give(gram->context, gram->scale);
+    pia_give(gram->context, gram->still);
     *gram = (pia_gram){0};
 }
 
@@ -34,18 +34,20 @@ void pia_gram_clear(pia_gram *gram)
     memset(gram->band, 0, (size_t)(gram->count * (gram->width + 1)) * sizeof *gram->band);
 }
 
-/* Two columns that are copies of one unknown meet on its diagonal in both orders. */
+void pia_gram_add_row(pia_gram *gram, pia_index s, int k, const double *row)
+{
+    pia_index i = pia_collocation_unknown(gram->line, s + k);
+    double *to = gram->band + i * (gram->width + 1);
+    for (int l = k; l <= gram->width; l++) {
+        pia_index apart = gram->line->map == PIA_MAP_DOUBLED ? pia_collocation_unknown(gram->line, s + l) - i : l - k;
+        int twice = apart == 0 && l > k; /* two columns that are copies of one unknown meet on its diagonal in both orders */
+        to[apart] += twice ? 2 * row[l - k] : row[l - k];
+    }
+}
+
 void pia_gram_add(pia_gram *gram, pia_index s, const double *share)
 {
-    int cyclic = gram->line->map == PIA_MAP_CYCLIC;
-    for (int k = 0; k <= gram->width; k++) {
-        pia_index i = pia_collocation_unknown(gram->line, s + k);
-        for (int l = k; l <= gram->width; l++, share++) {
-            pia_index apart = cyclic ? l - k : pia_collocation_unknown(gram->line, s + l) - i;
-            int twice = !cyclic && apart == 0 && l > k;
-            gram->band[i * (gram->width + 1) + apart] += twice ? 2 * *share : *share;
-        }
-    }
+    for (int k = 0; k <= gram->width; share += gram->width + 1 - k, k++) pia_gram_add_row(gram, s, k, share);
 }
 
 static pia_index partner(const pia_gram *gram, pia_index i, int k)
@@ -55,11 +57,11 @@ static pia_index partner(const pia_gram *gram, pia_index i, int k)
 
 void pia_gram_diagonal(const pia_gram *gram, double *out)
 {
+    int row = gram->width + 1, reach = gram->line->map == PIA_MAP_CYCLIC ? gram->width : 0; /* how far around copies meet */
     for (pia_index i = 0; i < gram->count; i++) {
-        const double *row = gram->band + i * (gram->width + 1);
-        out[i] = row[0];
-        for (int k = 1; k <= gram->width; k++)
-            if (partner(gram, i, k) == i) out[i] += 2 * row[k];
+        out[i] = gram->band[i * row];
+        for (int k = 1; k <= reach; k++)
+            if (partner(gram, i, k) == i) out[i] += 2 * gram->band[i * row + k];
     }
 }
 
@@ -75,12 +77,11 @@ PIA_INLINE void add_multiple(double factor, const double *x, pia_index count, do
     for (pia_index c = 0; c < count; c++) y[c] += factor * x[c];
 }
 
-/* Row i gathers from its neighbours on both sides, so that rows are independent and their order of summation is fixed. */
-PIA_INLINE void gather_row(const product *p, pia_index i, const double *x, pia_index after, double *y)
+/* Row i gathers from its neighbours on both sides, farthest before it first, so that rows are independent and their order of summation
+ * is fixed. */
+PIA_INLINE void gather_near_end(const pia_gram *g, pia_index i, const double *x, pia_index after, double *y)
 {
-    const pia_gram *g = p->gram;
     int cyclic = g->line->map == PIA_MAP_CYCLIC, width = g->width;
-    for (pia_index c = 0; c < after; c++) y[c] = 0;
     for (int k = width; k >= 1; k--) {
         pia_index j = i - k;
         if (j < 0 && cyclic) j = (j % g->count + g->count) % g->count;
@@ -93,23 +94,38 @@ PIA_INLINE void gather_row(const product *p, pia_index i, const double *x, pia_i
     }
 }
 
-static void multiply_row(const product *p, pia_index i, const double *x, double *y)
+PIA_INLINE void gather_inside(const double *row, int width, const double *x, pia_index after, double *y)
 {
-    switch (p->after) {
-    case 1: gather_row(p, i, x, 1, y); break;
-    case 2: gather_row(p, i, x, 2, y); break;
-    case 3: gather_row(p, i, x, 3, y); break;
-    default: gather_row(p, i, x, p->after, y); break;
-    }
+    for (int k = width; k >= 1; k--) add_multiple(row[k - k * (width + 1)], x - k * after, after, y);
+    for (int k = 0; k <= width; k++) add_multiple(row[k], x + k * after, after, y);
 }
 
-static void multiply_chunk(void *work, pia_index chunk)
+/* y [after] = row i of the product with x [count x after]. */
+PIA_INLINE void multiply_row_of(const pia_gram *g, pia_index i, const double *x, int width, pia_index after, double *y)
+{
+    for (pia_index c = 0; c < after; c++) y[c] = 0;
+    if (i >= width && i < g->count - width)
+        gather_inside(g->band + i * (width + 1), width, x + i * after, after, y);
+    else
+        gather_near_end(g, i, x, after, y);
+}
+
+PIA_INLINE void multiply_row(const pia_gram *g, pia_index i, const double *x, pia_index after, double *y)
+{
+    if (g->width == 3 && after == 3)
+        multiply_row_of(g, i, x, 3, 3, y);
+    else if (g->width == 3 && after == 1)
+        multiply_row_of(g, i, x, 3, 1, y);
+    else
+        multiply_row_of(g, i, x, g->width, after, y);
+}
+
+PIA_CLONES static void multiply_chunk(void *work, pia_index chunk)
 {
     const product *p = work;
-    for (pia_index r = pia_chunk_begin(p->rows, p->chunks, chunk); r < pia_chunk_begin(p->rows, p->chunks, chunk + 1); r++) {
-        pia_index i = r % p->gram->count;
-        multiply_row(p, i, p->x + (r - i) * p->after, p->y + r * p->after);
-    }
+    pia_index row = pia_chunk_begin(p->rows, p->chunks, chunk), end = pia_chunk_begin(p->rows, p->chunks, chunk + 1);
+    for (pia_index i = row % p->gram->count; row < end; row++, i = i + 1 < p->gram->count ? i + 1 : 0)
+        multiply_row(p->gram, i, p->x + (row - i) * p->after, p->after, p->y + row * p->after);
 }
 
 void pia_gram_multiply(const pia_gram *gram, const double *x, pia_index before, pia_index after, double *y)
@@ -123,7 +139,7 @@ static void relax_row(const product *p, const unsigned char *frozen, const doubl
 {
     double sum[PIA_MAX_DIM];
     if ((frozen != NULL && frozen[i]) || !(diagonal[i] > 0)) return;
-    multiply_row(p, i, x, sum);
+    multiply_row(p->gram, i, x, p->after, sum);
     for (pia_index d = 0; d < p->after; d++) x[i * p->after + d] += (b[i * p->after + d] - sum[d]) / diagonal[i];
 }
 
@@ -150,65 +166,109 @@ static pia_status take_factor(pia_gram *gram)
     if (gram->factor != NULL) return PIA_OK;
     gram->factor_width = is_small(gram) ? (int)gram->count - 1 : gram->width;
     pia_index row = gram->factor_width + 1;
-    gram->scale = pia_take(gram->context, gram->count, sizeof *gram->scale);
+    gram->still = pia_take(gram->context, gram->count, sizeof *gram->still);
     gram->factor = pia_take(gram->context, gram->count, (size_t)row * sizeof *gram->factor);
     pia_index border = is_bordered(gram) ? gram->count + gram->width : 0;
     gram->border = pia_take(gram->context, border, (size_t)row * sizeof *gram->border);
-    if (gram->scale != NULL && gram->factor != NULL && gram->border != NULL) return PIA_OK;
+    if (gram->still != NULL && gram->factor != NULL && gram->border != NULL) return PIA_OK;
     pia_give(gram->context, gram->factor);
-    pia_give(gram->context, gram->scale);
+    pia_give(gram->context, gram->still);
     pia_give(gram->context, gram->border);
-    gram->factor = gram->scale = gram->border = NULL;
+    gram->factor = gram->border = NULL;
+    gram->still = NULL;
     return pia_take_status(gram->context, gram->count, (size_t)row * sizeof *gram->factor);
 }
 
-/* Returns how many unknowns have no data. */
-static pia_index find_scale(pia_gram *gram, const unsigned char *frozen)
+/* Which unknowns stay. Returns how many of them for want of data. */
+static pia_index find_still(pia_gram *gram, const unsigned char *frozen)
 {
     pia_index empty = 0;
-    pia_gram_diagonal(gram, gram->scale);
+    double *diagonal = gram->factor; /* for now */
+    pia_gram_diagonal(gram, diagonal);
+    gram->any_still = 0;
     for (pia_index i = 0; i < gram->count; i++) {
-        int still = frozen != NULL && frozen[i], held = gram->scale[i] > 0;
-        gram->scale[i] = held && !still ? 1 / sqrt(gram->scale[i]) : 0;
-        empty += !held && !still;
+        int asked = frozen != NULL && frozen[i], held = diagonal[i] > 0;
+        gram->still[i] = asked || !held;
+        gram->any_still |= gram->still[i];
+        empty += !held && !asked;
     }
     return empty;
 }
 
-/* Factors the scaled matrix plus `added` on its diagonal; unknowns of scale 0 get identity rows. Returns how many pivots were weak. */
-static pia_index factor_scaled(pia_gram *gram, double added)
+/* The matrix, its diagonal times `more`, with rows of the identity for unknowns that stay. */
+static void copy_rows(const pia_gram *gram, double more, pia_index from, pia_index to)
 {
-    int width = gram->factor_width, small = is_small(gram);
+    int width = gram->width;
+    for (pia_index i = from; i < to; i++) {
+        const double *row = gram->band + i * (width + 1);
+        double *out = gram->factor + i * (width + 1);
+        for (int k = 0; k <= width; k++) out[k] = row[k];
+        for (int k = 0; k <= width && gram->any_still; k++) {
+            pia_index j = partner(gram, i, k);
+            if (gram->still[i] || j >= gram->count || gram->still[j]) out[k] = 0;
+        }
+        out[0] = gram->any_still && gram->still[i] ? 1 : out[0] * more;
+    }
+}
+
+/* The same of a matrix whose band reaches around. */
+static void copy_small(const pia_gram *gram, double more)
+{
+    int width = gram->factor_width;
     memset(gram->factor, 0, (size_t)(gram->count * (width + 1)) * sizeof *gram->factor);
     for (pia_index i = 0; i < gram->count; i++) {
         for (int k = 0; k <= gram->width; k++) {
-            pia_index j = partner(gram, i, k);
-            if (j >= gram->count) break;
-            double entry = gram->band[i * (gram->width + 1) + k] * gram->scale[i] * gram->scale[j];
-            pia_index row = small && j < i ? j : i, apart = !small ? k : j < i ? i - j : j - i;
+            pia_index j = partner(gram, i, k), row = j < i ? j : i, apart = j < i ? i - j : j - i;
+            double entry = gram->still[i] || gram->still[j] ? 0 : gram->band[i * (gram->width + 1) + k];
             gram->factor[row * (width + 1) + apart] += apart == 0 && k > 0 ? 2 * entry : entry;
         }
-        gram->factor[i * (width + 1)] += gram->scale[i] > 0 ? added : 1;
     }
-    if (is_bordered(gram)) return pia_band_cyclic_factor(gram->factor, gram->count, width, weak_pivot, gram->border);
-    return pia_band_ldl_factor(gram->factor, gram->count, width, weak_pivot, NULL, 0);
+    for (pia_index i = 0; i < gram->count; i++) {
+        double *diagonal = gram->factor + i * (width + 1);
+        *diagonal = gram->still[i] ? 1 : *diagonal * more;
+    }
+}
+
+typedef struct copies {
+    const pia_gram *gram;
+    double more;
+    pia_index chunks;
+} copies;
+
+static void copy_chunk(void *work, pia_index chunk)
+{
+    const copies *c = work;
+    pia_index count = c->gram->count;
+    copy_rows(c->gram, c->more, pia_chunk_begin(count, c->chunks, chunk), pia_chunk_begin(count, c->chunks, chunk + 1));
+}
+
+/* Returns how many pivots were weak, each beside its own diagonal: the scale of the unknowns does not matter. */
+static pia_index factor_matrix(pia_gram *gram, double more)
+{
+    copies c = {gram, more, pia_chunk_count(gram->count * (gram->width + 1), GRAIN)};
+    if (is_small(gram))
+        copy_small(gram, more);
+    else
+        pia_for_each(gram->context, c.chunks, copy_chunk, &c);
+    if (is_bordered(gram)) return pia_band_cyclic_factor(gram->factor, gram->count, gram->width, weak_pivot, gram->border);
+    return pia_band_ldl_factor(gram->factor, gram->count, gram->factor_width, weak_pivot, NULL, 0);
 }
 
 pia_status pia_gram_factor(pia_gram *gram, const unsigned char *frozen)
 {
     pia_status status = take_factor(gram);
     if (status != PIA_OK) return status;
-    gram->weak = find_scale(gram, frozen);
-    gram->refused = factor_scaled(gram, 0);
-    if (gram->refused > 0) factor_scaled(gram, ridge);
+    gram->weak = find_still(gram, frozen);
+    gram->refused = factor_matrix(gram, 1);
+    if (gram->refused > 0) factor_matrix(gram, 1 + ridge);
     gram->weak += gram->refused;
     return PIA_OK;
 }
 
-static void scale_rows(const pia_gram *gram, pia_index after, double *b)
+static void settle(const pia_gram *gram, pia_index after, double *b)
 {
-    for (pia_index i = 0; i < gram->count; i++)
-        for (pia_index c = 0; c < after; c++) b[i * after + c] *= gram->scale[i];
+    for (pia_index i = 0; i < gram->count && gram->any_still; i++)
+        for (pia_index c = 0; c < after && gram->still[i]; c++) b[i * after + c] = 0;
 }
 
 typedef struct solution {
@@ -221,14 +281,14 @@ static void solve_chunk(void *work, pia_index chunk)
 {
     const solution *s = work;
     const pia_gram *g = s->gram;
-    for (pia_index k = pia_chunk_begin(s->before, s->chunks, chunk); k < pia_chunk_begin(s->before, s->chunks, chunk + 1); k++) {
+    pia_index end = pia_chunk_begin(s->before, s->chunks, chunk + 1);
+    for (pia_index k = pia_chunk_begin(s->before, s->chunks, chunk); k < end; k++) {
         double *b = s->b + k * g->count * s->after;
-        scale_rows(g, s->after, b);
+        settle(g, s->after, b);
         if (is_bordered(g))
             pia_band_cyclic_solve(g->factor, g->border, g->count, g->factor_width, b, (int)s->after);
         else
             pia_band_ldl_solve(g->factor, g->count, g->factor_width, b, (int)s->after);
-        scale_rows(g, s->after, b);
     }
 }
 

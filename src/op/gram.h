@@ -10,19 +10,22 @@ typedef struct pia_gram {
     pia_index count;             /* unknowns */
     int width;                   /* the degree */
     double *band;                /* [count x (width + 1)], entry (i, k) couples unknowns i and i + k (closed: modulo count) */
-    double *factor, *border;     /* LDL' of the band scaled to diagonal 1; NULL until factored */
-    double *scale;               /* [count] of that scaling, 0 where an unknown is frozen or has no data */
-    int factor_width;
+    double *factor, *border;     /* its LDL'; NULL until factored */
+    unsigned char *still;        /* [count] then: 1 where an unknown is frozen or has no data */
+    int any_still, factor_width;
     pia_index weak;    /* unknowns without data, or that the data do not tell apart */
     pia_index refused; /* those of the second kind, as far as the digits of the matrix say */
 } pia_gram;
 
-/* A matrix of zeros. */
+/* A matrix whose numbers are not set yet. */
 pia_status pia_gram_open(pia_context *context, const pia_collocation *line, pia_gram *out);
 void pia_gram_close(pia_gram *gram);
+/* All numbers 0. */
 void pia_gram_clear(pia_gram *gram);
 /* Adds the share of span s (span_sums.h). */
 void pia_gram_add(pia_gram *gram, pia_index s, const double *share);
+/* Its part in one row alone: row [width + 1 - k] holds the products of function s + k with s + k .. s + width. */
+void pia_gram_add_row(pia_gram *gram, pia_index s, int k, const double *row);
 /* [count] */
 void pia_gram_diagonal(const pia_gram *gram, double *out);
 

@@ -11,6 +11,12 @@ PIA_INLINE pia_lanes pia_lanes_load(const double *array, const pia_index *at)
     return (pia_lanes){array[at[0]], array[at[1]], array[at[2]], array[at[3]]};
 }
 
+/* Component d of rows at[] of array [rows x dim]. */
+PIA_INLINE pia_lanes pia_lanes_component(const double *array, const pia_index *at, int dim, int d)
+{
+    return (pia_lanes){array[at[0] * dim + d], array[at[1] * dim + d], array[at[2] * dim + d], array[at[3] * dim + d]};
+}
+
 /* To four neighbours. */
 PIA_INLINE void pia_lanes_write(pia_lanes four, double *to)
 {
@@ -94,6 +100,26 @@ PIA_INLINE void pia_lanes_quick_basis(const pia_lanes *knot, const pia_lanes *in
             pia_lanes part = value[r] * ((t - knot[degree + r - d]) * inverse[r]);
             value[r] = carried + (value[r] - part);
             carried = part;
+        }
+        value[d] = carried;
+    }
+}
+
+/* Basis values from the inverses, as sums of products of factors that are not negative: small values keep all their digits. */
+PIA_INLINE void pia_lanes_exact_basis(const pia_lanes *knot, const pia_lanes *inverse, int degree, pia_lanes t, pia_lanes *value)
+{
+    pia_lanes left[PIA_MAX_DEGREE], right[PIA_MAX_DEGREE];
+    for (int k = 0; k < degree; k++) {
+        left[k] = t - knot[degree - 1 - k];
+        right[k] = knot[degree + k] - t;
+    }
+    value[0] = (pia_lanes){1, 1, 1, 1};
+    for (int d = 1; d <= degree; inverse += d++) {
+        pia_lanes carried = {0};
+        for (int r = 0; r < d; r++) {
+            pia_lanes part = value[r] * inverse[r];
+            value[r] = carried + part * right[r];
+            carried = part * left[d - 1 - r];
         }
         value[d] = carried;
     }

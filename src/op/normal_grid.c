@@ -33,6 +33,7 @@ static pia_status sum_gram(pia_context *context, const pia_collocation *line, pi
     double *share = pia_take(context, spans, (size_t)room * sizeof *share);
     if (share == NULL) return pia_take_status(context, spans, (size_t)room * sizeof *share);
     pia_span_sums(&data, 0, spans - 1, share, NULL);
+    pia_gram_clear(gram);
     for (pia_index s = 0; s < spans; s++) pia_gram_add(gram, s, share + s * room);
     pia_give(context, share);
     return PIA_OK;

@@ -53,17 +53,11 @@ PIA_INLINE pia_index load_rows(const pia_collocation *c, pia_index row, int coun
     return fourth;
 }
 
-/* Component d of array [.. x dim] at these rows, or columns. */
-PIA_INLINE pia_lanes load(const double *array, const pia_index *at, int dim, int d)
-{
-    return (pia_lanes){array[at[0] * dim + d], array[at[1] * dim + d], array[at[2] * dim + d], array[at[3] * dim + d]};
-}
-
 /* Component d of the curve at these rows. */
 PIA_INLINE pia_lanes combine(const rows *r, const double *full, int degree, int dim, int d)
 {
-    pia_lanes sum = r->value[0] * load(full, r->column, dim, d);
-    for (int k = 1; k <= degree; k++) sum += r->value[k] * load(full + k * dim, r->column, dim, d);
+    pia_lanes sum = r->value[0] * pia_lanes_component(full, r->column, dim, d);
+    for (int k = 1; k <= degree; k++) sum += r->value[k] * pia_lanes_component(full + k * dim, r->column, dim, d);
     return sum;
 }
 
@@ -111,10 +105,11 @@ typedef enum output { NOTHING, DIFFERENCES, MOVED } output;
 PIA_INLINE void residual_rows(const pass *p, const rows *r, output kind, int degree, int dim, pia_run_errors *e)
 {
     pia_lanes square = {0}, difference[PIA_MAX_DIM];
-    for (int d = 0; d < dim; d++) difference[d] = load(p->targets->points, r->at, dim, d) - p->targets->origin[d];
+    for (int d = 0; d < dim; d++) difference[d] = pia_lanes_component(p->targets->points, r->at, dim, d) - p->targets->origin[d];
     for (int d = 0; d < dim; d++) difference[d] -= combine(r, p->full, degree, dim, d);
     for (int d = 0; d < dim; d++) square += difference[d] * difference[d];
-    for (int d = 0; d < dim && kind == MOVED; d++) difference[d] = load(p->base, r->at, dim, d) + p->factor * difference[d];
+    for (int d = 0; d < dim && kind == MOVED; d++)
+        difference[d] = pia_lanes_component(p->base, r->at, dim, d) + p->factor * difference[d];
     for (int d = 0; d < dim && kind != NOTHING; d++) store(r, difference[d], dim, d, p->out);
     count_square(p->weights, r, square, e);
 }

@@ -3,37 +3,19 @@
 #include "span_sums.h"
 
 #include "kernel.h"
+#include "span_lanes.h"
+#include "vector.h"
 
 #include <string.h>
 
-/* Below FEW points a function, evaluating them is cheaper than the change of basis. PIECE: rows of a span that one task sums; longer
- * spans are shared between tasks. GRAIN: rows a task gets when spans are short. BLOCK: rows that are summed at a time. */
-enum { FEW = 2, PIECE = 262144, GRAIN = 16384, MAX_CHUNKS = 256, BLOCK = 512 };
+/* Below so many points a function, evaluating them is cheaper than the change of basis: FEW to find errors, MANY to sum products.
+ * PIECE: rows of a span that one task sums; longer spans are shared between tasks. GRAIN: rows a task gets when spans are short. BLOCK:
+ * rows that are summed at a time. */
+enum { FEW = 2, MANY = 16, PIECE = 262144, GRAIN = 16384, MAX_CHUNKS = 256, BLOCK = 512 };
 
 int pia_span_room(int degree, int dim)
 {
-    return (degree + 1) * (degree + 2) / 2 + (degree + 1) * dim;
-}
-
-static inline __attribute__((always_inline)) void add_point(const double *value, double w, const double *q, const double *origin,
-                                                            int degree, int dim, double *share)
-{
-    for (int k = 0; k <= degree; k++)
-        for (int l = k; l <= degree; l++) *share++ += w * value[k] * value[l];
-    for (int k = 0; k <= degree; k++)
-        for (int d = 0; d < dim; d++) *share++ += w * value[k] * (q[d] - origin[d]);
-}
-
-static inline __attribute__((always_inline)) void plain_span(const pia_span_data *data, pia_index s, int degree, int dim, double *share)
-{
-    const pia_collocation *line = data->line;
-    double scratch[PIA_MAX_DEGREE + 1];
-    const double *points = dim > 0 ? data->targets->points : NULL, *origin = dim > 0 ? points + line->begin[s] * dim : NULL;
-    memset(share, 0, (size_t)pia_span_room(degree, dim) * sizeof *share);
-    for (pia_index row = line->begin[s]; row < line->begin[s + 1]; row++) {
-        const double *value = pia_collocation_row(line, row, degree + s, scratch), *q = dim > 0 ? points + row * dim : NULL;
-        add_point(value, data->weights != NULL ? data->weights[row] : 1, q, origin, degree, dim, share);
-    }
+    return (degree + 1) * (degree + 2) / 2 + (degree + 2) * dim;
 }
 
 static const double lost = 1e-12;
@@ -43,21 +25,14 @@ static int components(const pia_span_data *data)
     return data->targets != NULL ? data->targets->dim : 0;
 }
 
-/* The cubic in up to three dimensions is what nearly everybody fits. */
-static void sum_plain(const pia_span_data *data, pia_index s, double *share)
+static int has_fewer(const pia_collocation *line, pia_index s, int each)
 {
-    int degree = data->line->degree, dim = components(data);
-    if (degree == 3 && dim == 3)
-        plain_span(data, s, 3, 3, share);
-    else if (degree == 3 && dim == 2)
-        plain_span(data, s, 3, 2, share);
-    else
-        plain_span(data, s, degree, dim, share);
+    return line->begin[s + 1] - line->begin[s] < each * (line->degree + 1);
 }
 
 int pia_span_is_full(const pia_collocation *line, pia_index s)
 {
-    return line->begin[s + 1] - line->begin[s] >= FEW * (line->degree + 1);
+    return !has_fewer(line, s, FEW);
 }
 
 pia_run pia_span_run(const pia_span_data *data, const pia_chebyshev *c, pia_index s, double *coefficient)
@@ -147,7 +122,7 @@ static void cross_moments(int degree, const double *sums, double *product)
         for (int j = 0; j <= degree; j++) product[i * (degree + 1) + j] = 0.5 * (m[i + j] + m[i > j ? i - j : j - i]);
 }
 
-static void change_basis(int degree, int dim, const double *coefficient, const double *sums, double *share)
+static double *change_basis(int degree, int dim, const double *coefficient, const double *sums, double *share)
 {
     enum { ROOM = (PIA_MAX_DEGREE + 1) * (PIA_MAX_DEGREE + 1) };
     int width = degree + 1;
@@ -170,6 +145,7 @@ static void change_basis(int degree, int dim, const double *coefficient, const d
             for (int j = 0; j < width; j++) sum += coefficient[k * width + j] * sums[(2 + d) * width + j];
             *share++ = sum;
         }
+    return share;
 }
 
 /* Moments know sums to a fixed part of the largest; where a function is smaller than that at all points, they know nothing of it. */
@@ -186,8 +162,9 @@ static int is_known(int degree, const double *share)
 static void finish(const pia_span_data *data, const pia_run *run, const double *coefficient, const double *sums, pia_index s,
                    double *share)
 {
-    change_basis(run->degree, run->dim, coefficient, sums, share);
-    if (!is_known(run->degree, share)) sum_plain(data, s, share);
+    double *origin = change_basis(run->degree, run->dim, coefficient, sums, share);
+    for (int d = 0; d < run->dim; d++) origin[d] = run->origin[d];
+    if (!is_known(run->degree, share)) pia_span_lanes(data, s, 1, share);
 }
 
 /* Of a span whose rows are one task's. */
@@ -238,20 +215,29 @@ static int is_long(const pia_span_data *data, pia_index s)
     return data->line->begin[s + 1] - data->line->begin[s] > PIECE;
 }
 
+/* How many spans from s on, at most a vector's lanes, have few rows. */
+static int count_short(const pia_collocation *line, pia_index s, pia_index end)
+{
+    int count = 0;
+    while (count < PIA_LANES && s + count < end && has_fewer(line, s + count, MANY)) count++;
+    return count;
+}
+
 /* Spans that are shared between tasks are left out. */
 static void sum_spans(const sweep *w, pia_index from, pia_index to, pia_scout *scout)
 {
     const pia_collocation *line = w->data->line;
-    int room = pia_span_room(line->degree, components(w->data));
-    for (pia_index s = from; s < to; s++) {
+    int room = pia_span_room(line->degree, components(w->data)), count;
+    for (pia_index s = from; s<to; s += count> 0 ? count : 1) {
         double *share = w->share + (s - w->first) * room;
-        if (is_long(w->data, s)) {
-            if (scout != NULL) scout->next = line->begin[s + 1];
-        } else if (pia_span_is_full(line, s)) {
+        count = count_short(line, s, to);
+        if (count > 0) {
+            if (scout != NULL) pia_scout_reach(scout, line->begin[s + count]);
+            pia_span_lanes(w->data, s, count, share);
+        } else if (!is_long(w->data, s)) {
             sum_moments(w->data, w->chebyshev, s, scout, share);
-        } else {
-            if (scout != NULL) pia_scout_reach(scout, line->begin[s + 1]);
-            sum_plain(w->data, s, share);
+        } else if (scout != NULL) {
+            scout->next = line->begin[s + 1];
         }
     }
 }
@@ -281,12 +267,4 @@ void pia_span_sums(const pia_span_data *data, pia_index first, pia_index last, d
     for (pia_index s = first; s <= last; s++) /* their rows are shared between the threads, one such span after the other */
         if (is_long(data, s))
             sum_long_moments(data, &chebyshev, s, survey, share + (s - first) * pia_span_room(line->degree, components(data)));
-}
-
-void pia_span_shift(const pia_span_data *data, pia_index s, double *shift)
-{
-    const pia_collocation *line = data->line;
-    const pia_targets *targets = data->targets;
-    int any = line->begin[s] < line->begin[s + 1];
-    for (int d = 0; d < targets->dim; d++) shift[d] = any ? targets->points[line->begin[s] * targets->dim + d] - targets->origin[d] : 0;
 }

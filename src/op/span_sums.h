@@ -7,8 +7,8 @@
 #include "run.h"
 #include "survey.h"
 
-/* Doubles of a share: the upper triangle by rows, sum w N_k N_l for k <= l, then sum w N_k (q - q0) [(degree + 1) x dim], where q0 is
- * the first point of the span. */
+/* Doubles of a share: the upper triangle by rows, sum w N_k N_l for k <= l, then sum w N_k (q - q0) [(degree + 1) x dim], then q0
+ * [dim], the first point of the span, any where it has none. */
 int pia_span_room(int degree, int dim);
 
 /* What is summed: the rows of a line, their weights [rows] (NULL: 1) and targets (NULL: the triangle alone). */
@@ -22,8 +22,6 @@ typedef struct pia_span_data {
 /* Shares of spans first .. last (span s begins at knot degree + s) into share[(s - first) * room]. Spans of many points go by moments.
  * The same bits whatever the threads and whatever the range. survey: receives what there is to know of these rows; NULL: unwanted. */
 void pia_span_sums(const pia_span_data *data, pia_index first, pia_index last, double *share, pia_survey *survey);
-/* shift [dim] = q0 - origin of span s; 0 without rows. */
-void pia_span_shift(const pia_span_data *data, pia_index s, double *shift);
 
 /* The rows of span s as a run, and the Chebyshev coefficients of its basis functions [(degree + 1) x (degree + 1)]. */
 pia_run pia_span_run(const pia_span_data *data, const pia_chebyshev *c, pia_index s, double *coefficient);
