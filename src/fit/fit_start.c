@@ -3,12 +3,15 @@
 #include "fit.h"
 
 #include "basis.h"
+#include "kernel.h"
 #include "knots.h"
 #include "model.h"
 #include "sequence.h"
 
 #include <math.h>
 #include <string.h>
+
+enum { GRAIN = 4096 }; /* control points a thread should get at least */
 
 /* The row of a line that unknown i starts from. */
 static pia_index picked_row(const pia_fit *fit, int d, pia_index i)
@@ -35,16 +38,32 @@ static pia_index picked_row(const pia_fit *fit, int d, pia_index i)
     return a;
 }
 
-static void from_data(pia_fit *fit)
+typedef struct picking {
+    pia_fit *fit;
+    pia_index chunks;
+} picking;
+
+static void pick_chunk(void *work, pia_index chunk)
 {
-    double *to = fit->iterate.points;
-    for (pia_index i = 0; i < fit->op->count[0]; i++) {
+    const picking *p = work;
+    const pia_fit *fit = p->fit;
+    pia_index from = pia_chunk_begin(fit->op->count[0], p->chunks, chunk),
+              end = pia_chunk_begin(fit->op->count[0], p->chunks, chunk + 1);
+    double *to = fit->iterate.points + from * fit->op->count[1] * fit->dim;
+    for (pia_index i = from; i < end; i++) {
         pia_index line = picked_row(fit, 0, i) * fit->count[1];
         for (pia_index j = 0; j < fit->op->count[1]; j++, to += fit->dim) {
             pia_index row = line + (fit->directions == 2 ? picked_row(fit, 1, j) : 0);
             for (int d = 0; d < fit->dim; d++) to[d] = fit->points[row * fit->dim + d] - fit->origin[d];
         }
     }
+}
+
+static void from_data(pia_fit *fit)
+{
+    picking p = {fit, pia_chunk_count(fit->op->cols, GRAIN)};
+    if (p.chunks > fit->op->count[0]) p.chunks = fit->op->count[0];
+    pia_for_each(fit->context, p.chunks, pick_chunk, &p);
 }
 
 /* Means of the data by basis value, for scattered points and grids with holes; unknowns without data take the mean of all. Both are in

@@ -2,6 +2,7 @@
  * far away; so where there are any, all control points are pulled to the start, as little as keeps the limit near the data. Every
  * method then has that limit. Fairing holds all control points itself. */
 #include "fit.h"
+#include "kernel.h"
 #include "support.h"
 
 #include <math.h>
@@ -19,15 +20,22 @@ static const double TAME = 3; /* extents from the centre of the data */
 
 /* ---- finding ---- */
 
-/* As many different parameters of rows that count in every span as make Schoenberg and Whitney content: O(spans degree). */
-static int is_dense(const pia_collocation *line, const double *weights)
+typedef struct rows {
+    const pia_collocation *line;
+    const double *weights; /* NULL: 1 */
+} rows;
+
+/* As many different parameters of rows that count in each of these spans as make Schoenberg and Whitney content: O(spans degree). */
+static int are_dense(const void *data, pia_index from, pia_index to)
 {
-    for (pia_index s = 0; s < line->full - line->degree; s++) {
+    const rows *r = data;
+    const pia_collocation *line = r->line;
+    for (pia_index s = from; s < to; s++) {
         int found = 0;
         double last = NAN;
-        for (pia_index r = line->begin[s]; r < line->begin[s + 1] && found <= line->degree; r++) {
-            if (line->parameters[r] == last || (weights != NULL && !(weights[r] > 0))) continue;
-            last = line->parameters[r];
+        for (pia_index row = line->begin[s]; row < line->begin[s + 1] && found <= line->degree; row++) {
+            if (line->parameters[row] == last || (r->weights != NULL && !(r->weights[row] > 0))) continue;
+            last = line->parameters[row];
             found++;
         }
         if (found <= line->degree) return 0;
@@ -36,10 +44,11 @@ static int is_dense(const pia_collocation *line, const double *weights)
 }
 
 /* held [unknowns] of one direction. */
-static void find_held(const pia_collocation *line, const double *weights, unsigned char *held)
+static void find_held(pia_context *context, const pia_collocation *line, const double *weights, unsigned char *held)
 {
     memset(held, 1, (size_t)line->unknowns);
-    if (is_dense(line, weights)) return;
+    const rows r = {line, weights};
+    if (pia_all(context, line->full - line->degree, are_dense, &r)) return;
     pia_support_line support = {line->degree, line->map == PIA_MAP_CYCLIC, line->knots, line->unknowns, line->parameters, weights,
                                 line->rows};
     pia_support_find(&support, held);
@@ -51,34 +60,59 @@ static void find_lines(const pia_fit *fit, unsigned char *held)
     const pia_op *op = fit->op;
     memset(held, 1, (size_t)(op->count[0] + op->count[1]));
     for (int d = 0; d < op->directions && op->line[d] != NULL; d++)
-        find_held(op->line[d], op->directions == 1 ? op->weights : NULL, held + (d == 0 ? 0 : op->count[0]));
+        find_held(fit->context, op->line[d], op->directions == 1 ? op->weights : NULL, held + (d == 0 ? 0 : op->count[0]));
 }
 
-static int is_held(const pia_fit *fit, const unsigned char *lines, pia_index c)
+typedef struct search {
+    const pia_fit *fit;
+    const unsigned char *lines; /* as find_lines gives them */
+} search;
+
+/* Control point c = (i, j). */
+static int is_held(const search *s, pia_index c, pia_index i, pia_index j)
+{
+    const pia_op *op = s->fit->op;
+    const pia_normal *normal = s->fit->normal;
+    if (op->frozen != NULL && op->frozen[c]) return 1;
+    return s->lines[i] && s->lines[op->count[0] + j] && normal->diagonal[c] > BARELY * normal->column_sum[c];
+}
+
+static int are_held(const void *data, pia_index from, pia_index to)
+{
+    const search *s = data;
+    pia_index columns = s->fit->op->count[1], i = from / columns, j = from % columns;
+    for (pia_index c = from; c < to; c++) {
+        if (!is_held(s, c, i, j)) return 0;
+        if (++j < columns) continue;
+        j = 0;
+        i++;
+    }
+    return 1;
+}
+
+static pia_status list_unsupported(pia_fit *fit, const search *s)
 {
     const pia_op *op = fit->op;
-    const pia_normal *normal = fit->normal;
-    if (op->frozen != NULL && op->frozen[c]) return 1;
-    if (!lines[c / op->count[1]] || !lines[op->count[0] + c % op->count[1]]) return 0;
-    return normal->diagonal[c] > BARELY * normal->column_sum[c];
+    pia_index count = 0, at = 0;
+    for (pia_index c = 0; c < op->cols; c++) count += !is_held(s, c, c / op->count[1], c % op->count[1]);
+    fit->unsupported = pia_take(fit->context, count, sizeof *fit->unsupported);
+    if (fit->unsupported == NULL) return pia_take_status(fit->context, count, sizeof *fit->unsupported);
+    fit->unsupported_count = count;
+    for (pia_index c = 0; c < op->cols; c++)
+        if (!is_held(s, c, c / op->count[1], c % op->count[1])) fit->unsupported[at++] = c;
+    return PIA_OK;
 }
 
 static pia_status find_unsupported(pia_fit *fit)
 {
     const pia_op *op = fit->op;
-    pia_index count = 0, at = 0;
     unsigned char *lines = pia_take(fit->context, op->count[0] + op->count[1], 1);
     if (lines == NULL) return pia_take_status(fit->context, op->count[0] + op->count[1], 1);
     find_lines(fit, lines);
-    for (pia_index c = 0; c < op->cols; c++) count += !is_held(fit, lines, c);
-    fit->unsupported = count > 0 ? pia_take(fit->context, count, sizeof *fit->unsupported) : NULL;
-    if (count == 0 || fit->unsupported != NULL) {
-        fit->unsupported_count = count;
-        for (pia_index c = 0; c < op->cols; c++)
-            if (!is_held(fit, lines, c)) fit->unsupported[at++] = c;
-    }
+    search s = {fit, lines};
+    pia_status status = pia_all(fit->context, op->cols, are_held, &s) ? PIA_OK : list_unsupported(fit, &s);
     pia_give(fit->context, lines);
-    return count == 0 || fit->unsupported != NULL ? PIA_OK : pia_take_status(fit->context, count, sizeof *fit->unsupported);
+    return status;
 }
 
 /* ---- holding ---- */

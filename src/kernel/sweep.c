@@ -3,7 +3,7 @@
 
 #include <string.h>
 
-enum { GRAIN = 32768, MAX_CHUNKS = 64 };
+enum { GRAIN = 16384, MAX_CHUNKS = 64 };
 
 static pia_index chunk_count(pia_index count)
 {

@@ -6,7 +6,7 @@
 
 #include <string.h>
 
-enum { GRAIN = 16384 }; /* rows a thread should get at least */
+enum { GRAIN = 16384 }; /* rows, or spans, a thread should get at least */
 
 static pia_index spans(const pia_collocation *c)
 {
@@ -39,13 +39,33 @@ static void find_last(pia_collocation *c)
     while (c->last > c->degree && !(c->knots[c->last] < c->knots[c->last + 1])) c->last--;
 }
 
-static void find_begins(pia_collocation *c)
+typedef struct search {
+    pia_collocation *line;
+    pia_index chunks;
+} search;
+
+/* Of the first spans that have rows, up to `last`. */
+static void find_chunk(void *work, pia_index chunk)
 {
-    pia_index row = 0, last = c->last - c->degree;
-    for (pia_index s = 0; s <= last; s++) {
+    const search *b = work;
+    pia_collocation *c = b->line;
+    pia_index count = c->last - c->degree + 1;
+    pia_index from = pia_chunk_begin(count, b->chunks, chunk), to = pia_chunk_begin(count, b->chunks, chunk + 1);
+    pia_index row = from > 0 ? first_from(c, 0, c->knots[c->degree + from]) : 0;
+    for (pia_index s = from; s < to; s++) {
         c->begin[s] = row;
-        row = s == last ? c->rows : first_from(c, row, c->knots[c->degree + s + 1]);
+        if (s + 1 < to) row = first_from(c, row, c->knots[c->degree + s + 1]);
     }
+}
+
+/* Parameters out of order are found out later; until then begins at least never fall. */
+static void find_begins(pia_context *context, pia_collocation *c)
+{
+    pia_index last = c->last - c->degree;
+    search b = {c, pia_chunk_count(last + 1, GRAIN)};
+    pia_for_each(context, b.chunks, find_chunk, &b);
+    for (pia_index s = 1; s <= last; s++)
+        if (c->begin[s] < c->begin[s - 1]) c->begin[s] = c->begin[s - 1];
     for (pia_index s = last + 1; s <= spans(c); s++) c->begin[s] = c->rows;
 }
 
@@ -64,7 +84,7 @@ static void fill_values(void *work, pia_index chunk)
 void pia_collocation_rebucket(pia_collocation *c)
 {
     find_last(c);
-    if (c->begin != NULL) find_begins(c);
+    if (c->begin != NULL) find_begins(NULL, c);
     if (c->values != NULL) {
         pia_index chunks = pia_chunk_count(c->rows, GRAIN);
         for (pia_index chunk = 0; chunk < chunks; chunk++) fill_values(c, chunk);
@@ -84,7 +104,7 @@ pia_status pia_collocation_open(pia_context *context, int degree, pia_map map, p
     if (begins > 0) {
         c.begin = pia_take(context, begins, sizeof *c.begin);
         if (c.begin == NULL) return pia_take_status(context, begins, sizeof *c.begin);
-        find_begins(&c);
+        find_begins(context, &c);
     }
     if (values > 0) {
         c.values = pia_take(context, values, (size_t)(degree + 1) * sizeof *c.values);

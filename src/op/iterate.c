@@ -23,8 +23,8 @@ static void dot_chunk(void *work, pia_index chunk)
 {
     const scan *s = work;
     double sum = 0;
-    for (pia_index i = pia_chunk_begin(s->count, s->chunks, chunk); i < pia_chunk_begin(s->count, s->chunks, chunk + 1); i++)
-        sum += s->x[i] * s->y[i];
+    pia_index end = pia_chunk_begin(s->count, s->chunks, chunk + 1);
+    for (pia_index i = pia_chunk_begin(s->count, s->chunks, chunk); i < end; i++) sum += s->x[i] * s->y[i];
     s->part[chunk] = sum;
 }
 
@@ -32,7 +32,8 @@ static void longest_chunk(void *work, pia_index chunk)
 {
     const scan *s = work;
     double worst = 0;
-    for (pia_index i = pia_chunk_begin(s->count, s->chunks, chunk); i < pia_chunk_begin(s->count, s->chunks, chunk + 1); i++) {
+    pia_index end = pia_chunk_begin(s->count, s->chunks, chunk + 1);
+    for (pia_index i = pia_chunk_begin(s->count, s->chunks, chunk); i < end; i++) {
         double square = 0;
         for (int d = 0; d < s->dim; d++) square += s->x[i * s->dim + d] * s->x[i * s->dim + d];
         if (!(square <= worst) && !isnan(worst)) worst = square;
@@ -60,7 +61,7 @@ double pia_iterate_longest(const pia_iterate *iterate, const double *x)
     return sqrt(worst);
 }
 
-typedef struct addition {
+typedef struct addition { /* x += y, or x := y - x */
     double *x;
     const double *y;
     pia_index count, chunks;
@@ -71,6 +72,13 @@ static void add_chunk(void *work, pia_index chunk)
     const addition *a = work;
     pia_index to = pia_chunk_begin(a->count, a->chunks, chunk + 1);
     for (pia_index i = pia_chunk_begin(a->count, a->chunks, chunk); i < to; i++) a->x[i] += a->y[i];
+}
+
+static void take_from_chunk(void *work, pia_index chunk)
+{
+    const addition *a = work;
+    pia_index to = pia_chunk_begin(a->count, a->chunks, chunk + 1);
+    for (pia_index i = pia_chunk_begin(a->count, a->chunks, chunk); i < to; i++) a->x[i] = a->y[i] - a->x[i];
 }
 
 void pia_iterate_add(const pia_iterate *iterate, double *x, const double *y)
@@ -90,10 +98,11 @@ void pia_iterate_measure(pia_iterate *iterate)
 void pia_iterate_gradient(pia_iterate *iterate, double *gradient)
 {
     const pia_normal *normal = iterate->normal;
-    pia_index size = iterate->op->cols * iterate->dim;
     if (normal != NULL) {
+        pia_index count = iterate->op->cols * iterate->dim;
+        addition a = {gradient, normal->right, count, chunk_count(count)};
         normal->class->multiply(normal, iterate->points, iterate->dim, gradient);
-        for (pia_index i = 0; i < size; i++) gradient[i] = normal->right[i] - gradient[i];
+        pia_for_each(iterate->context, a.chunks, take_from_chunk, &a);
         pia_op_mask(iterate->op, gradient, iterate->dim);
     } else {
         pia_iterate_measure(iterate);
