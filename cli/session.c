@@ -10,11 +10,14 @@ struct kept {
     _Alignas(max_align_t) char block[];
 };
 
+/* What the library warns of, and with --verbose all it does. */
 static void log_to_stderr(void *user, int level, const char *text)
 {
-    (void)user;
-    (void)level;
-    fprintf(stderr, "pia: %s\n", text);
+    const struct session *session = user;
+    if (level >= 2)
+        session_warn(session, "%s", text);
+    else if (session->verbose)
+        fprintf(stderr, "pia: %s\n", text);
 }
 
 /* The allocator of the C library, counted. Blocks may come and go on any thread. */
@@ -41,7 +44,7 @@ int session_open(struct session *session)
     options.threads = session->threads;
     options.backend = session->backend;
     options.user = session;
-    if (session->verbose) options.log = log_to_stderr;
+    options.log = log_to_stderr;
     if (session->metered) {
         options.allocate = allocate_metered;
         options.release = release_metered;

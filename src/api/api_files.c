@@ -166,12 +166,23 @@ static void stem_of(const char *path, char stem[64])
     snprintf(stem, 64, "%.*s", length, strcmp(path, "-") != 0 ? name : "model");
 }
 
+static void warn_of_trims(pia_context *context, const char *path, const pia_format *writer, const pia_model *const *models,
+                          pia_index count)
+{
+    pia_index trimmed = 0;
+    for (pia_index k = 0; k < count; k++) trimmed += pia_model_trim_loop_count(models[k]) > 0;
+    if (writer->leaves_trims && trimmed > 0)
+        pia_log(context, 2, "%s: the format %s knows no trim loops, surfaces are written whole; STEP, IGES and JSON keep them", path,
+                writer->name);
+}
+
 static pia_status write_models(pia_context *context, const char *path, const pia_model *const *models, pia_index count,
                                const pia_write_options *options)
 {
     const pia_format *writer;
     pia_status status = find_writer(context, path, options->format, &writer);
     if (status != PIA_OK) return status;
+    warn_of_trims(context, path, writer, models, count);
     pia_output *output;
     status = pia_output_open(context, path, &output);
     if (status != PIA_OK) return status;

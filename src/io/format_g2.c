@@ -190,4 +190,5 @@ const pia_format pia_format_g2 = {
     .extensions = "g2",
     .read_models = read_models,
     .write_models = write_models,
+    .leaves_trims = 1,
 };

@@ -129,5 +129,6 @@ const pia_format pia_format_npy = {
     .extensions = "npy",
     .read_points = read_points,
     .write_models = write_models,
+    .leaves_trims = 1,
     .write_table = write_table,
 };

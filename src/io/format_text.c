@@ -120,5 +120,6 @@ const pia_format pia_format_text = {
     .extensions = "csv txt xyz dat",
     .read_points = read_points,
     .write_models = write_models,
+    .leaves_trims = 1,
     .write_table = write_table,
 };

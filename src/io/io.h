@@ -75,6 +75,7 @@ typedef struct pia_format {
                               int columns);
     const pia_plugin *plugin; /* the program that reading needs (plugin.h); NULL: none */
     int holds_arrays;         /* 1: FILE:/NAME is the array NAME of FILE */
+    int leaves_trims;         /* 1: trimmed surfaces are written whole */
 } pia_format;                 /* a NULL entry: the format cannot do that. Readers leave `out` as it was on failure, apart from what
                                  pia_points_clear gives back */
 
