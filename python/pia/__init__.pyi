@@ -19,6 +19,15 @@ class Constraint(TypedDict, total=False):
     value: ArrayLike
     direction: bool
 
+Edge: TypeAlias = Literal["start", "end", "u0", "u1", "v0", "v1"]
+
+class Join(TypedDict, total=False):
+    join: Model
+    end: Edge
+    to: Edge
+    continuity: Literal["C0", "G1", "C1"]
+    reversed: bool
+
 class FitOptions(TypedDict, total=False):
     degree: int | Pair | None
     closed: bool | tuple[bool, bool] | None
@@ -31,6 +40,7 @@ class FitOptions(TypedDict, total=False):
     start: Model | None
     interpolate: Iterable[int] | Literal["ends"] | None
     constraints: Sequence[Constraint] | None
+    joins: Sequence[Join] | None
     soft: float | None
     freeze: Iterable[int] | None
     fairing: float | None
@@ -163,6 +173,7 @@ class Fit:
     def freeze(self, control: Iterable[int]) -> None: ...
     def free(self, control: Iterable[int]) -> None: ...
     def constrain(self, constraints: Sequence[Constraint]) -> range: ...
+    def join(self, joins: Sequence[Join]) -> range: ...
     def release(self, id: int) -> None: ...
     def insert_knot(self, knot: float, direction: int = 0) -> None: ...
     def save(self, path: Path) -> None: ...

@@ -36,7 +36,9 @@ def fit_curve(points, **options):
 
     interpolate takes rows, also negative ones from the end, or 'ends'; corners rows or 'auto'. constraints is a list of dicts
     {'at': row or parameter, 'derivative': order, 'value': [dim], 'direction': True for a direction of any length}: a whole number is a
-    row, a number with a point a parameter. method_options and limiter_options are dicts, see pia.settings.
+    row, a number with a point a parameter. joins is a list of dicts {'join': model, 'end': 'start' or 'end' (of a surface 'u0', 'u1',
+    'v0' or 'v1'), 'to': that of the neighbour, by default the opposite one, 'continuity': 'C0', 'G1' or 'C1', 'reversed': True where
+    the parameters along the edges run against each other}. method_options and limiter_options are dicts, see pia.settings.
 
     Ctrl-C stops the fit: KeyboardInterrupt is raised with the best model so far as its attribute `model`. So is an exception of the
     progress callback. A callback that answers True stops too, and the model is returned with report.stop 'cancelled'.
@@ -229,6 +231,11 @@ class Fit(_pia.Fit):
     def constrain(self, constraints):
         """Adds constraints, a list of dicts as in fit_curve; returns their ids for `release`."""
         first, count = self._constrain(constraints)
+        return range(first, first + count)
+
+    def join(self, joins):
+        """Goes on from neighbouring models, a list of dicts as in fit_curve; returns the ids of their constraints for `release`."""
+        first, count = self._join(joins)
         return range(first, first + count)
 
     def release(self, id):

@@ -12,7 +12,7 @@ class Option(NamedTuple):
     """An option of a fit, as the library lists it."""
 
     name: str
-    type: str  #: 'switch', 'integer', 'count', 'number', 'name', 'dict', 'indices', 'numbers', 'constraints', 'model'
+    type: str  #: 'switch', 'integer', 'count', 'number', 'name', 'dict', 'indices', 'numbers', 'constraints', 'model', 'joins'
     directions: int  #: 2: a pair (u, v) for surfaces, or one value for both
     automatic: bool  #: True: may be left to the library
     minimum: float

@@ -83,9 +83,16 @@ enum { FUNCTION_GRAPH = 3 };
 int request_take(int kind, PyObject *points, PyObject *parameters, PyObject *weights, PyObject *tolerances, PyObject *options,
                  py_request *out);
 void request_give(py_request *request);
+/* Zeroes, and an object, that live as long as the request. */
+void *request_keep(py_request *request, Py_ssize_t count, size_t size);
+int request_hold(py_request *request, PyObject *object);
+/* A copy of a dict: whatever runs while its values are read cannot change it. TypeError with an example for other objects. */
+PyObject *copy_dict(PyObject *dict, const char *what, const char *example);
 /* A list of dicts {"at": row or parameter or (u, v), "derivative": order, "value": numbers, "direction": bool}; dim: components of a
  * value. */
 int request_constraints(py_request *request, PyObject *list, int dim, const pia_constraint **out, pia_index *count);
+/* py_join.c. A list of dicts {"join": model, "end": edge, "to": edge, "continuity": word, "reversed": bool}. */
+int request_joins(py_request *request, PyObject *list, const pia_join **out, pia_index *count);
 /* A sequence of whole numbers. */
 int request_indices(py_request *request, PyObject *sequence, const char *what, const pia_index **out, pia_index *count);
 

@@ -370,7 +370,7 @@ static PyObject *freeze(PyObject *self, PyObject *arguments)
     return result;
 }
 
-/* constrain(list of dicts) -> the first id */
+/* constrain(list of dicts) -> (the first id, how many) */
 static PyObject *constrain(PyObject *self, PyObject *arguments)
 {
     PyObject *list, *result = NULL;
@@ -384,6 +384,40 @@ static PyObject *constrain(PyObject *self, PyObject *arguments)
     if (f != NULL) {
         begin(f);
         pia_status status = pia_fit_constrain(f->fit, constraint, count, &first);
+        end(f);
+        if (worker_check(f->worker, status) == 0) result = Py_BuildValue("(LL)", (long long)first, (long long)count);
+    }
+    request_give(&request);
+    return result;
+}
+
+/* Ids are given in order, so those of several joins follow each other. */
+static pia_status add_joins(pia_fit *fit, const pia_join *join, pia_index joins, pia_index *first, pia_index *count)
+{
+    pia_status status = PIA_OK;
+    for (pia_index i = 0; i < joins && status == PIA_OK; i++) {
+        pia_index id, added;
+        status = pia_fit_join(fit, &join[i], &id, &added);
+        if (status != PIA_OK) break;
+        if (i == 0) *first = id;
+        *count += added;
+    }
+    return status;
+}
+
+/* join(list of dicts) -> (the first id, how many) */
+static PyObject *join(PyObject *self, PyObject *arguments)
+{
+    PyObject *list, *result = NULL;
+    if (!PyArg_ParseTuple(arguments, "O", &list)) return NULL;
+    py_request request = {0};
+    const pia_join *joins;
+    pia_index length, first = 0, count = 0;
+    int code = request_joins(&request, list, &joins, &length);
+    fit_object *f = code == 0 ? ready(self) : NULL; /* reading the list may have run anything */
+    if (f != NULL) {
+        begin(f);
+        pia_status status = add_joins(f->fit, joins, length, &first, &count);
         end(f);
         if (worker_check(f->worker, status) == 0) result = Py_BuildValue("(LL)", (long long)first, (long long)count);
     }
@@ -456,6 +490,7 @@ static PyMethodDef methods[] = {
     {"_add_points", add_points, METH_VARARGS, NULL},
     {"_freeze", freeze, METH_VARARGS, NULL},
     {"_constrain", constrain, METH_VARARGS, NULL},
+    {"_join", join, METH_VARARGS, NULL},
     {"_release", release, METH_VARARGS, NULL},
     {"_insert_knot", insert_knot, METH_VARARGS, NULL},
     {"_save", save, METH_VARARGS, NULL},

@@ -41,12 +41,11 @@ static PyObject *settings(PyObject *module, PyObject *arguments)
 static PyObject *options(PyObject *module, PyObject *nothing)
 {
     (void)module, (void)nothing;
-    static const char *const type[] = {"switch", "integer", "count",   "number",      "name",
-                                       "dict",   "indices", "numbers", "constraints", "model"};
+    static const char *const type[] = {"switch",  "integer", "count",       "number", "name", "dict",
+                                       "indices", "numbers", "constraints", "model",  "joins"};
     pia_option o;
     PyObject *list = PyList_New(0);
     for (pia_index i = 0; list != NULL && pia_list_options(i, &o); i++) {
-        if (o.type == PIA_OPTION_JOINS) continue; /* not offered here */
         PyObject *item = Py_BuildValue("(ssiidddzs)", o.name, type[o.type], o.directions, o.automatic, o.minimum, o.maximum, o.initial,
                                        o.values, o.sentence);
         if (item == NULL || PyList_Append(list, item) < 0) Py_CLEAR(list);

@@ -8,6 +8,7 @@ typedef struct kept {
     struct kept *next;
     py_numbers numbers;
     void *block;
+    PyObject *object;
 } kept;
 
 static kept *keep(py_request *request)
@@ -22,7 +23,7 @@ static kept *keep(py_request *request)
     return item;
 }
 
-static void *keep_block(py_request *request, Py_ssize_t count, size_t size)
+void *request_keep(py_request *request, Py_ssize_t count, size_t size)
 {
     kept *item = keep(request);
     if (item == NULL) return NULL;
@@ -38,6 +39,13 @@ static const py_numbers *keep_numbers(py_request *request, PyObject *object, con
     return &item->numbers;
 }
 
+int request_hold(py_request *request, PyObject *object)
+{
+    kept *item = keep(request);
+    if (item != NULL) item->object = Py_NewRef(object);
+    return item != NULL ? 0 : -1;
+}
+
 void request_give(py_request *request)
 {
     numbers_give(&request->points);
@@ -48,6 +56,7 @@ void request_give(py_request *request)
         kept *next = request->kept->next;
         numbers_give(&request->kept->numbers);
         PyMem_Free(request->kept->block);
+        Py_XDECREF(request->kept->object);
         PyMem_Free(request->kept);
         request->kept = next;
     }
@@ -60,7 +69,7 @@ int request_indices(py_request *request, PyObject *sequence, const char *what, c
     PyObject *tuple = PySequence_Tuple(sequence);
     if (tuple == NULL) return -1;
     Py_ssize_t length = PyTuple_Size(tuple);
-    pia_index *index = keep_block(request, length, sizeof *index);
+    pia_index *index = request_keep(request, length, sizeof *index);
     for (Py_ssize_t i = 0; index != NULL && i < length && PyErr_Occurred() == NULL; i++) {
         PyObject *whole = PyNumber_Index(PyTuple_GetItem(tuple, i));
         if (whole != NULL) index[i] = PyLong_AsLongLong(whole);
@@ -76,8 +85,7 @@ int request_indices(py_request *request, PyObject *sequence, const char *what, c
     return 0;
 }
 
-/* A copy: whatever runs while its values are read cannot change it. */
-static PyObject *copy_dict(PyObject *dict, const char *what, const char *example)
+PyObject *copy_dict(PyObject *dict, const char *what, const char *example)
 {
     if (PyDict_Check(dict)) return PyDict_Copy(dict);
     PyErr_Format(PyExc_TypeError, "%s: a dict such as %s is needed", what, example);
@@ -174,7 +182,7 @@ int request_constraints(py_request *request, PyObject *list, int dim, const pia_
     PyObject *tuple = PyDict_Check(list) ? PyTuple_Pack(1, list) : PySequence_Tuple(list);
     if (tuple == NULL) return -1;
     Py_ssize_t length = PyTuple_Size(tuple);
-    pia_constraint *constraint = keep_block(request, length, sizeof *constraint);
+    pia_constraint *constraint = request_keep(request, length, sizeof *constraint);
     int code = constraint != NULL ? 0 : -1;
     for (Py_ssize_t i = 0; code == 0 && i < length; i++)
         code = read_constraint(request, PyTuple_GetItem(tuple, i), dim, &constraint[i]);
@@ -189,7 +197,7 @@ static const char *keep_setting(py_request *request, PyObject *name, PyObject *v
     PyObject *line = PyUnicode_FromFormat("%S=%S", name, value);
     Py_ssize_t size;
     const char *utf8 = line != NULL ? PyUnicode_AsUTF8AndSize(line, &size) : NULL;
-    char *copy = utf8 != NULL ? keep_block(request, size, 1) : NULL;
+    char *copy = utf8 != NULL ? request_keep(request, size, 1) : NULL;
     if (copy != NULL) memcpy(copy, utf8, (size_t)size);
     Py_XDECREF(line);
     return copy;
@@ -199,7 +207,7 @@ static const char *keep_setting(py_request *request, PyObject *name, PyObject *v
 static int put_settings(py_request *request, PyObject *value, const char *what, const char *const **out, pia_index *count)
 {
     PyObject *settings = copy_dict(value, what, "{'omega': 1.5}");
-    const char **text = settings != NULL ? keep_block(request, PyDict_Size(settings), sizeof *text) : NULL;
+    const char **text = settings != NULL ? request_keep(request, PyDict_Size(settings), sizeof *text) : NULL;
     Py_ssize_t position = 0;
     PyObject *name, *setting;
     int code = text != NULL ? 0 : -1;
@@ -256,10 +264,8 @@ static int put_array(py_request *request, const pia_option *option, PyObject *va
     if (option->type == PIA_OPTION_CONSTRAINTS)
         return request_constraints(request, value, request->data.dim - request->data.function_graph,
                                    (const pia_constraint **)(void *)member, (pia_index *)(void *)count);
-    if (option->type == PIA_OPTION_JOINS) {
-        PyErr_SetString(PyExc_TypeError, "not offered here; give values and derivatives at the edge as constraints");
-        return -1;
-    }
+    if (option->type == PIA_OPTION_JOINS)
+        return request_joins(request, value, (const pia_join **)(void *)member, (pia_index *)(void *)count);
     const py_numbers *numbers = keep_numbers(request, value, option->name);
     if (numbers == NULL) return -1;
     ((const double **)(void *)member)[d] = numbers->value;

@@ -76,6 +76,26 @@ class Curves(Case):
         dx, dy = model.derivative(1.0)
         self.assertLess(abs(dy), 1e-9 * abs(dx))
 
+    def test_a_curve_goes_on_from_another(self):
+        points = wave(80)
+        first = pia.fit_curve(points[:45], control=10)
+        model = pia.fit_curve(points[44:], control=10, joins=[{"join": first, "end": "start", "continuity": "C1"}])
+        self.near(model(0.0), first(1.0), 1e-12)
+        self.near(model.derivative(0.0), first.derivative(1.0), 1e-10)
+        before = pia.fit_curve(points[:45], control=10, joins=[{"join": model, "end": "end", "to": "start", "continuity": "G1"}])
+        self.near(before(1.0), model(0.0), 1e-12)
+        (ax, ay), (bx, by) = before.derivative(1.0), model.derivative(0.0)
+        self.assertLess(abs(ax * by - ay * bx), 1e-9 * math.hypot(ax, ay) * math.hypot(bx, by))
+
+    def test_a_surface_goes_on_from_another(self):
+        def sheet(columns):
+            return [[(0.1 * i, 0.1 * j, math.sin(0.2 * i) * math.cos(0.3 * j)) for j in columns] for i in range(20)]
+
+        left = pia.fit_grid(sheet(range(0, 16)), control=8)
+        right = pia.fit_grid(sheet(range(15, 31)), control=8, joins=[{"join": left, "end": "v0", "continuity": "G1"}])
+        for i in range(11):
+            self.near(right(i / 10, 0.0), left(i / 10, 1.0), 1e-3)
+
     def test_closed_curves_join_and_corners_stay_sharp(self):
         circle = [[math.cos(a), math.sin(a)] for a in (2 * math.pi * i / 60 for i in range(60))]
         model = pia.fit_curve(circle, closed=True, tolerance=1e-3)
@@ -191,6 +211,13 @@ class Failures(Case):
         self.refused(TypeError, "no 'row'", pia.fit_curve, points, constraints=[{"row": 3}])
         self.refused(ValueError, "'at' is missing", pia.fit_curve, points, constraints=[{"value": [0, 0]}])
         self.refused(ValueError, "value has 3", pia.fit_curve, points, constraints=[{"at": 3, "value": [0, 0, 0]}])
+        line = pia.fit_curve(points)
+        self.refused(TypeError, "a pia.Model", pia.fit_curve, points, joins=[{"join": 3, "end": "start"}])
+        self.refused(ValueError, "are needed", pia.fit_curve, points, joins=[{"join": line}])
+        self.refused(ValueError, "end is 'top'", pia.fit_curve, points, joins=[{"join": line, "end": "top"}])
+        self.refused(ValueError, "'C0', 'G1' or 'C1'", pia.fit_curve, points, joins=[{"join": line, "end": "end", "continuity": "C2"}])
+        self.refused(TypeError, "no 'edge'", pia.fit_curve, points, joins=[{"join": line, "edge": "end"}])
+        self.refused(TypeError, "a dict such as", pia.fit_curve, points, joins=[line])
         self.refused(ValueError, "no order", pia.fit_curve, points, constraints=[{"at": 0.5, "derivative": 1.5, "value": [0, 0]}])
 
     def test_shapes_that_do_not_fit_say_what_is_needed(self):

@@ -19,6 +19,7 @@ BAD = [
     dict(control=10, interpolate=[500]),
     dict(weights=[1.0]),
     dict(start=3),
+    dict(joins=[{"join": 3, "end": "start"}]),
     dict(method_options=7),
     dict(knots=[0, "a"]),
 ]
@@ -33,6 +34,8 @@ def work():
         except (pia.Error, TypeError, ValueError):
             continue
         raise AssertionError(f"{options} should fail")
+    with pia.Fit(POINTS, control=10, joins=[{"join": model, "end": "start"}]) as fit:
+        fit.join([{"join": model, "end": "end"}])
     model(0.5), model([0.1, 0.2]), model.derivative(0.5, order=2), model.curvature(0.5)
     model.closest(POINTS[:3]), model.deviation(POINTS), model.bounds(), model.length()
     model.insert_knots([0.5]), model.elevate(), model.split(0.5), model.bezier(), model.remove_knots(0.1)

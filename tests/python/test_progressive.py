@@ -110,6 +110,19 @@ class Edits(Case):
         self.near(self.fit.model.control, free, 1e-9)
         self.assertRaises(pia.Error, self.fit.release, 99)
 
+    def test_joins_come_and_go(self):
+        free = self.fit.model(0.0)
+        other = pia.fit_curve([[x / 9 - 1, 0.3] for x in range(10)])
+        ids = self.fit.join([{"join": other, "end": "start"}])
+        self.assertGreaterEqual(len(ids), 2)
+        self.fit.run()
+        self.near(self.fit.model(0.0), [0.0, 0.3], 1e-10)
+        self.assertLess(abs(self.fit.model.derivative(0.0)[1]), 1e-8)
+        for id in ids:
+            self.fit.release(id)
+        self.fit.run()
+        self.near(self.fit.model(0.0), free, 1e-9)
+
     def test_knots_are_inserted_and_control_points_frozen(self):
         before = self.fit.model
         self.fit.insert_knot(0.51)

@@ -29,7 +29,7 @@ class Stubs(unittest.TestCase):
 
     def test_every_public_name_is_there(self):
         stubbed = {name for name in members(self.tree.body) if not name.startswith("__")}
-        helpers = {"Array", "ArrayLike", "Path", "Pair", "Kind", "Constraint", "FitOptions"}
+        helpers = {"Array", "ArrayLike", "Path", "Pair", "Kind", "Constraint", "Join", "Edge", "FitOptions"}
         self.assertEqual(stubbed - helpers, set(pia.__all__))
 
     def test_options_are_those_of_the_library(self):
