@@ -30,5 +30,14 @@ offers pia fit --param ch -- chord
 offers pia check --f -- --foot-points --format
 offers pia list m -- methods
 offers pia help '' -- fit plot
+# Every option of every command's help is offered, and nothing else.
+for command in fit eval check info convert plot list; do
+    COMP_WORDS=(pia "$command" --) COMP_CWORD=2
+    _pia
+    diff <(pia "$command" --help | sed -nE 's/^ +(-., )?(--[a-z][a-z-]*).*/\2/p' | sort -u) <(printf '%s\n' "${COMPREPLY[@]}" | sort -u) || {
+        echo "pia $command: options of the help (<) and of the completion (>) differ"
+        failed=1
+    }
+done
 cd "$(dirname "$2")" && offers pia fit pia.b -- pia.bash
 exit $failed
