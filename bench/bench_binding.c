@@ -27,6 +27,7 @@ int main(int argc, char **argv)
     }
     pia_context *context = NULL;
     pia_model *model = NULL;
+    pia_report report = {.struct_size = sizeof report}; /* as Python asks for it: without, errors would not be measured */
     pia_data data;
     pia_fit_options options;
     pia_data_init(&data);
@@ -39,7 +40,7 @@ int main(int argc, char **argv)
     double best = INFINITY;
     for (int k = 0; k < 3; k++) {
         double began = seconds();
-        if (pia_fit_data(context, &data, &options, &model, NULL) != PIA_OK) return 1;
+        if (pia_fit_data(context, &data, &options, &model, &report) != PIA_OK) return 1;
         best = fmin(best, seconds() - began);
         pia_model_destroy(model);
     }
