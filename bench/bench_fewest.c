@@ -4,7 +4,8 @@
  *     bench_fewest [--data DIRECTORY] [--only TEXT] [--distance] [--peers NAME,NAME | --no-peers] [--limit SECONDS]
  *
  * A peer that does not reach the tolerance is asked again for a smaller one, and the first result that reaches it counts, with the
- * time of that attempt alone. */
+ * time of that attempt alone. One that took longer than the limit is not asked for a smaller tolerance of the same curve: it is marked
+ * "late" there too. */
 #include <fcntl.h>
 #include <math.h>
 #include <signal.h>
@@ -37,7 +38,7 @@ typedef struct curve {
 typedef struct outcome {
     pia_index control;                /* 0: none */
     double seconds, processor, error; /* processor: of all threads */
-    int reached;
+    int reached, late;                /* late: no result within the limit */
 } outcome;
 
 static double seconds_of(clockid_t clock)
@@ -233,6 +234,7 @@ static outcome theirs(pia_context *context, const settings *s, int peer, const c
         out = run_peer(s, peer, path, result, s->limit - (now() - start)) ? read_result(context, c, result, tolerance) : (outcome){0};
         if (out.control == 0) break;
     }
+    out.late = !out.reached && now() - start >= s->limit;
     remove(path);
     remove(result);
     return out;
@@ -256,20 +258,24 @@ typedef struct totals {
     double ratio[MAX_CASES];
     int ratios, cases, reached, peer_reached[PEERS];
     double our_time[PEERS], peer_time[PEERS]; /* over the cases that both reached */
+    int fastest;                              /* cases that both we and some peer reached, and the times of the fastest such peer */
+    double our_fastest, peer_fastest;
     double seconds, processor, controls;
 } totals;
 
 static void print_cell(const outcome *o)
 {
     if (o->control == 0)
-        printf(" | %7s %9s ", "-", "-");
+        printf(" | %7s %9s ", "-", o->late ? "late" : "-");
     else
         printf(" | %7lld %9.4f%c", (long long)o->control, o->seconds, o->reached ? ' ' : '!');
 }
 
-static void run_case(pia_context *context, const settings *s, const curve *c, double tolerance, totals *t)
+/* late: bits of the peers that were for a larger tolerance of the same curve. */
+static void run_case(pia_context *context, const settings *s, const curve *c, double tolerance, int *late, totals *t)
 {
     outcome mine = ours(context, s, c, tolerance * c->extent), best = {0};
+    double fastest = INFINITY;
     printf("%-38s %6lld %5.0e", c->name, (long long)c->rows, tolerance);
     print_cell(&mine);
     t->cases++;
@@ -279,17 +285,22 @@ static void run_case(pia_context *context, const settings *s, const curve *c, do
     if (mine.control > 0) t->controls += log((double)mine.control);
     for (int peer = 0; peer < PEERS; peer++) {
         if ((s->peers >> peer & 1) == 0) continue;
-        outcome o = theirs(context, s, peer, c, tolerance * c->extent);
+        outcome o = (*late >> peer & 1) != 0 ? (outcome){.late = 1} : theirs(context, s, peer, c, tolerance * c->extent);
+        *late |= o.late << peer;
         print_cell(&o);
-        if (!o.reached) continue;
+        if (!o.reached || !mine.reached) continue;
         t->peer_reached[peer]++;
         t->our_time[peer] += mine.seconds;
         t->peer_time[peer] += o.seconds;
+        fastest = fmin(fastest, o.seconds);
         if (best.control == 0 || o.control < best.control) best = o;
     }
     if (mine.reached && best.control > 0) {
         t->ratio[t->ratios++] = (double)mine.control / (double)best.control;
         printf(" | %6.3f", t->ratio[t->ratios - 1]);
+        t->fastest++;
+        t->our_fastest += mine.seconds;
+        t->peer_fastest += fastest;
     }
     printf("\n");
     fflush(stdout);
@@ -303,9 +314,11 @@ static void print_totals(const settings *s, totals *t)
         if ((s->peers >> peer & 1) != 0)
             printf("%-6s reached %d; time over these cases %.3f s, ours %.3f s, ratio %.2f\n", peer_names[peer], t->peer_reached[peer],
                    t->peer_time[peer], t->our_time[peer], t->peer_time[peer] / t->our_time[peer]);
-    if (t->ratios > 0)
-        printf("control points, ours / best peer's: median %.3f, nine of ten at most %.3f, worst %.3f\n",
-               quantile(t->ratio, t->ratios, 0.5), quantile(t->ratio, t->ratios, 0.9), quantile(t->ratio, t->ratios, 1));
+    if (t->ratios == 0) return;
+    printf("fastest peer that reached: %d cases, %.3f s, ours %.3f s, ratio %.2f\n", t->fastest, t->peer_fastest, t->our_fastest,
+           t->peer_fastest / t->our_fastest);
+    printf("control points, ours / best peer's: median %.3f, nine of ten at most %.3f, worst %.3f\n",
+           quantile(t->ratio, t->ratios, 0.5), quantile(t->ratio, t->ratios, 0.9), quantile(t->ratio, t->ratios, 1));
 }
 
 static settings parse(int argc, char **argv)
@@ -355,8 +368,9 @@ int main(int argc, char **argv)
     while (fgets(line, sizeof line, manifest) != NULL) {
         curve c;
         if (strncmp(line, "file,", 5) == 0 || !load(context, &s, line, &c)) continue;
+        int late = 0;
         for (size_t k = 0; k < sizeof relative / sizeof *relative && t.cases < MAX_CASES; k++)
-            run_case(context, &s, &c, relative[k], &t);
+            run_case(context, &s, &c, relative[k], &late, &t);
         free(c.points);
     }
     fclose(manifest);
