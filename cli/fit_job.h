@@ -18,6 +18,7 @@ struct fit_request {
     enum fit_kind kind;
     int function_graph;
     pia_fit_options options; /* what needs no file */
+    double axis_tolerances[PIA_MAX_DIM];
     struct texts method_options, shape_options;
     const char *parameters, *knots, *start; /* names or files, as given; NULL: not given */
     const char *interpolate, *constraints, *corners, *freeze;
@@ -112,6 +113,8 @@ pia_index fit_settings(const struct fit_job *job, const pia_page_setting **out);
 /* The points that the parts fitted were made from, as one stretch; count 0 where a checkpoint was resumed without them. */
 pia_points_info fit_points_shown(const struct fit_job *job, pia_index *count);
 
+/* The tolerance as written on a command line; NULL where none was asked. */
+const char *fit_tolerance_text(struct session *session, const pia_fit_options *options);
 /* job_summary.c: prints the text or the JSON, and returns the exit status. */
 int fit_summary_print(const struct fit_job *job);
 

@@ -153,8 +153,10 @@ static error_t parse_model(int key, char *arg, struct argp_state *state)
 
 static const struct argp_option goal_options[] = {
     {NULL, 0, NULL, 0, "How close, how smooth:", 30},
-    {"tolerance", KEY_TOLERANCE, "T", 0, "largest deviation wanted, in the units of the points; knots are added until it holds", 0},
-    {"point-tolerance", KEY_POINT_TOLERANCE, "FILE", 0, "a tolerance for each point, one a row", 0},
+    {"tolerance", KEY_TOLERANCE, "T|TX,TY,...", 0,
+     "largest deviation wanted, in the units of the points, or one for each axis; knots are added until it holds", 0},
+    {"point-tolerance", KEY_POINT_TOLERANCE, "FILE", 0,
+     "a tolerance for each point, one a row, in place of T; a point keeps those of the axes as well", 0},
     {"measure", KEY_MEASURE, "parametric|distance", 0, "what the tolerance measures: deviation at the parameters, or true distance", 0},
     {"correct", KEY_CORRECT, "N", 0, "rounds of foot-point correction of the parameters", 0},
     {"weights", KEY_WEIGHTS, "COLUMN|FILE", 0, "a weight for each point: a column of the points or a file, one a row", 0},
@@ -183,8 +185,27 @@ static error_t parse_robust(struct fit_request *request, char *arg)
     return 0;
 }
 
-static error_t parse_tolerance(struct fit_request *request, const char *arg)
+static error_t parse_axis_tolerances(struct fit_request *request, char *arg)
 {
+    pia_fit_options *options = &request->options;
+    pia_index count = 0;
+    for (char *word; (word = strsep(&arg, ",")); count++) {
+        double value;
+        if (count == PIA_MAX_DIM) return usage_error("--tolerance: more than %d axes are not possible", PIA_MAX_DIM);
+        if (option_number("--tolerance", word, 0, &value)) return ERROR_IS_TOLD;
+        if (!(value > 0)) return usage_error("--tolerance: 0 cannot be reached; give a positive number for each axis");
+        request->axis_tolerances[count] = value;
+    }
+    options->axis_tolerances = request->axis_tolerances;
+    options->axis_tolerance_count = count;
+    options->tolerance = 0;
+    return 0;
+}
+
+static error_t parse_tolerance(struct fit_request *request, char *arg)
+{
+    if (strchr(arg, ',')) return parse_axis_tolerances(request, arg);
+    request->options.axis_tolerance_count = 0;
     if (option_number("--tolerance", arg, 0, &request->options.tolerance)) return ERROR_IS_TOLD;
     return request->options.tolerance > 0 ? 0 : usage_error("--tolerance: 0 cannot be reached; give a positive number");
 }
@@ -346,6 +367,9 @@ static error_t check_request(const struct fit_request *request)
     if (request->source.grid && request->kind != KIND_BY_FILE)
         return usage_error("--grid contradicts --curve and --surface; choose one");
     if (request->resume && request->levels.count) return usage_error("--resume and --levels cannot be joined; leave one out");
+    if (request->options.axis_tolerance_count && (request->resume || request->levels.count))
+        return usage_error("--tolerance for each axis and %s cannot be joined; leave one out",
+                           request->resume ? "--resume" : "--levels");
     return 0;
 }
 
@@ -387,6 +411,7 @@ static const char manual[] =
     "  pia fit dem.asc --control 30,40 -o dem.json         a surface of 30 x 40 control points\n"
     "  pia fit peaks.csv --grid 11x11 --method pia --iterations 30 --trace history.csv\n"
     "  pia fit scan.ply --surface --tolerance 0.05 --measure distance -o scan.step\n"
+    "  pia fit path.csv --tolerance 0.1,0.1,0.02 -o path.json   a tolerance for each axis\n"
     "  pia fit signal.csv --fit-function --tolerance 0.1 -o signal.json\n"
     "  pia fit part.csv --levels 1e-1,1e-2,1e-3 -o part.json   writes part.1e-1.json, ...\n"
     "  cat points.csv | pia fit - -o - | pia eval - --samples 500\n"

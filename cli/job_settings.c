@@ -76,7 +76,7 @@ static void add_model(struct settings *settings, const struct fit_request *reque
 static void add_goal(struct settings *settings, const struct fit_request *request)
 {
     const pia_fit_options *options = &request->options;
-    add_number(settings, "--tolerance", "none", options->tolerance, 0);
+    add(settings, "--tolerance", "none", fit_tolerance_text(settings->session, options));
     add(settings, "--point-tolerance", "none", request->tolerances);
     add(settings, "--measure", "parametric", options->measure_distance ? "distance" : NULL);
     add_number(settings, "--correct", "0", (double)options->correct, 0);

@@ -14,6 +14,23 @@ static pia_index file_row_of(const struct fit_result *result, const pia_report *
     return report->max_error_index < 0 ? report->max_error_index : row_in_file(&result->span, report->max_error_index);
 }
 
+const char *fit_tolerance_text(struct session *session, const pia_fit_options *options)
+{
+    const char *text = options->tolerance > 0 ? session_text(session, "%g", options->tolerance) : NULL;
+    for (pia_index d = 0; d < options->axis_tolerance_count; d++)
+        text = session_text(session, "%s%s%g", text ? text : "", text ? "," : "", options->axis_tolerances[d]);
+    return text;
+}
+
+static void join_axes(const pia_fit_options *options, const pia_report *part, pia_report *all)
+{
+    const double *tolerance = options->axis_tolerances;
+    for (int d = 0; d < options->axis_tolerance_count; d++) {
+        all->axis_error[d] = fmax(all->axis_error[d], part->axis_error[d]);
+        if (all->axis_error[d] / tolerance[d] > all->axis_error[all->worst_axis] / tolerance[all->worst_axis]) all->worst_axis = d;
+    }
+}
+
 /* The parts of a file told as one fit: counts add up, errors are the worst, the words are those of the part that did worst. */
 static pia_report join_parts(const struct fit_job *job)
 {
@@ -27,6 +44,7 @@ static pia_report join_parts(const struct fit_job *job)
         all.point_count += part->point_count;
         all.iterations = part->iterations > all.iterations ? part->iterations : all.iterations;
         all.constraint_error = fmax(all.constraint_error, part->constraint_error);
+        join_axes(&job->request->options, part, &all);
         squares += part->rms_error * part->rms_error * (double)part->point_count;
         if (part->reached == 0 && all.reached != 0) {
             all.reached = 0;
@@ -61,7 +79,13 @@ static int is_choice(const char *note)
 
 /* ---- JSON ---- */
 
-static void put_report(struct json_writer *json, const pia_report *report, pia_index max_error_row)
+static void put_axes(struct json_writer *json, const pia_fit_options *options, const pia_report *report)
+{
+    json_numbers(json, "axis_errors", report->axis_error, options->axis_tolerance_count);
+    json_count(json, "worst_axis", report->worst_axis);
+}
+
+static void put_report(struct json_writer *json, const pia_fit_options *options, const pia_report *report, pia_index max_error_row)
 {
     json_text(json, "kind", kind_name(report->kind));
     json_text(json, "method", report->method);
@@ -77,6 +101,7 @@ static void put_report(struct json_writer *json, const pia_report *report, pia_i
     json_number(json, "max_error", report->max_error);
     json_count(json, "max_error_index", max_error_row);
     json_number(json, "rms_error", report->rms_error);
+    if (options->axis_tolerance_count > 0) put_axes(json, options, report);
     json_number(json, "constraint_error", report->constraint_error);
     json_text(json, "measure", report->measure_distance ? "distance" : "parametric");
 }
@@ -88,7 +113,7 @@ static void put_levels(struct json_writer *json, const struct fit_job *job)
     for (pia_index i = 0; i < result->level_done; i++) {
         json_open(json, NULL, '{');
         json_text(json, "level", job->request->levels.item[i]);
-        put_report(json, &result->report[i], file_row_of(result, &result->report[i]));
+        put_report(json, &job->request->options, &result->report[i], file_row_of(result, &result->report[i]));
         json_close(json, '}');
     }
     json_close(json, ']');
@@ -100,7 +125,7 @@ static void put_parts(struct json_writer *json, const struct fit_job *job)
     for (pia_index k = 0; k < job->part_done; k++) {
         const pia_report *report = last_report(&job->result[k]);
         json_open(json, NULL, '{');
-        put_report(json, report, file_row_of(&job->result[k], report));
+        put_report(json, &job->request->options, report, file_row_of(&job->result[k], report));
         json_close(json, '}');
     }
     json_close(json, ']');
@@ -125,7 +150,7 @@ static void print_json(FILE *stream, const struct fit_job *job, const pia_report
 {
     struct json_writer writer = {.stream = stream}, *json = &writer;
     json_open(json, NULL, '{');
-    put_report(json, report, report->max_error_index);
+    put_report(json, &job->request->options, report, report->max_error_index);
     json_open(json, "seconds", '{');
     json_number(json, "read", job->read_seconds);
     json_number(json, "fit", job->fit_seconds);
@@ -193,6 +218,14 @@ static void print_model_line(FILE *stream, const struct fit_job *job, const pia_
         if (is_choice(note)) fprintf(stream, "             %s\n", note + strlen("method: "));
 }
 
+static void print_axes(FILE *stream, const pia_fit_options *options, const pia_report *report)
+{
+    for (pia_index d = 0; d < options->axis_tolerance_count; d++)
+        fprintf(stream, "%s%.6g%s", d ? ", " : "axes         ", report->axis_error[d],
+                report->axis_error[d] > options->axis_tolerances[d] ? " (too much)" : "");
+    if (options->axis_tolerance_count) fputc('\n', stream);
+}
+
 static void print_error_lines(FILE *stream, const struct fit_job *job, const pia_report *report)
 {
     fprintf(stream, "iterations   %lld; %s\n", (long long)report->iterations, stop_sentence(report->stop));
@@ -201,8 +234,10 @@ static void print_error_lines(FILE *stream, const struct fit_job *job, const pia
     fprintf(stream, " (%s)\nrms error    %.6g\n", report->measure_distance ? "true distance" : "at the parameters", report->rms_error);
     if (!isnan(report->constraint_error)) fprintf(stream, "constraints  met within %.3g\n", report->constraint_error);
     if (report->outlier_count) fprintf(stream, "outliers     %lld rows\n", (long long)report->outlier_count);
-    if (report->reached >= 0 && job->request->options.tolerance > 0)
-        fprintf(stream, "tolerance    %g %s\n", job->request->options.tolerance, report->reached ? "reached" : "NOT reached");
+    print_axes(stream, &job->request->options, report);
+    const char *tolerance = fit_tolerance_text(job->session, &job->request->options);
+    if (report->reached >= 0 && tolerance)
+        fprintf(stream, "tolerance    %s %s\n", tolerance, report->reached ? "reached" : "NOT reached");
 }
 
 static void print_levels(FILE *stream, const struct fit_job *job)

@@ -143,7 +143,7 @@ typedef struct pia_data {
     int function_graph;       /* curve: component 0 is the parameter (any order), the others are fitted, dim >= 2 */
     const double *parameters; /* NULL: computed. [count[0]] curve; [count[0]] u then [count[1]] v grid; [count[0] x 2] scattered */
     const double *weights;    /* NULL: 1. One a point, >= 0, not all zero */
-    const double *tolerances; /* NULL: the option's. One a point, units of the points, > 0 */
+    const double *tolerances; /* NULL: the option's. One a point in its place, units of the points, > 0 */
 } pia_data;
 
 /* Zeroes, kind PIA_CURVE, count[1] = 1. */
@@ -206,6 +206,8 @@ typedef struct pia_report {
     pia_index outlier_count;     /* rows the robust loss gave less than half weight */
     pia_index round_count;       /* rounds of knot insertion or parameter correction */
     double seconds;              /* time spent inside this fit */
+    int worst_axis;              /* component that takes most of its axis tolerance; PIA_AUTO: there are none, or errors are unknown */
+    double axis_error[PIA_MAX_DIM]; /* largest deviation of each component, where there are axis tolerances; else NAN */
 } pia_report;
 
 /* One row of the trace: the model after `iteration` updates. */
@@ -221,6 +223,9 @@ typedef struct pia_fit_options {
     int closed[2];                     /* 1: periodic in that direction; a repeated last point is accepted; default 0 */
     pia_index control[2];              /* control points; PIA_AUTO: as many as the method or the tolerance needs */
     double tolerance;                  /* largest deviation wanted, units of the points; 0: none asked */
+    const double *axis_tolerances;     /* what each component that is fitted may deviate, > 0; each point keeps both, these and its own
+                                          (or the option's) tolerance */
+    pia_index axis_tolerance_count;    /* as many as components are fitted; 0: none asked */
     int measure_distance;              /* 1: the tolerance and the report measure true distance */
     const char *method;                /* registry "method"; NULL: "auto" */
     const char *const *method_options; /* [method_option_count] texts "name=value" */

@@ -57,6 +57,7 @@ class FitOptions(TypedDict, total=False):
     knots: str | ArrayLike | None
     weights: ArrayLike | None
     tolerances: ArrayLike | None
+    axis_tolerances: ArrayLike | None
     measure: Literal["parametric", "distance"] | None
     threads: int | None
     progress: Callable[[Report], object] | None
@@ -198,6 +199,8 @@ class Report:
     max_error: float
     max_error_index: int
     rms_error: float
+    axis_error: tuple[float, ...] | None
+    worst_axis: int | None
     start_error: float
     measure: Literal["parametric", "distance"]
     constraint_error: float | None

@@ -19,6 +19,8 @@ class Report:
     max_error           largest deviation, units of the points
     max_error_index     the row of the points where it is
     rms_error           root of the mean square of the deviations, units of the points
+    axis_error          largest deviation of each component, where there are axis tolerances; else None
+    worst_axis          the component that takes most of its axis tolerance
     start_error         max_error of the initial model
     measure             'parametric': at the parameters used; 'distance': to the closest point
     constraint_error    largest violation of a constraint; None without constraints

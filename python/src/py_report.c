@@ -78,6 +78,24 @@ static int put_numbers(PyObject *dict, const pia_report *r)
     return 0;
 }
 
+static PyObject *axis_errors(const pia_report *r, Py_ssize_t count)
+{
+    PyObject *errors = PyTuple_New(count);
+    for (Py_ssize_t d = 0; errors != NULL && d < count; d++) {
+        PyObject *error = PyFloat_FromDouble(r->axis_error[d]);
+        if (error == NULL || PyTuple_SetItem(errors, d, error) < 0) Py_CLEAR(errors);
+    }
+    return errors;
+}
+
+static int put_axes(PyObject *dict, const pia_report *r)
+{
+    Py_ssize_t count = 0;
+    while (r->worst_axis != PIA_AUTO && count < PIA_MAX_DIM && !isnan(r->axis_error[count])) count++;
+    if (put(dict, "axis_error", count > 0 ? axis_errors(r, count) : Py_NewRef(Py_None)) < 0) return -1;
+    return put(dict, "worst_axis", count > 0 ? PyLong_FromLong(r->worst_axis) : Py_NewRef(Py_None));
+}
+
 PyObject *report_dict(const pia_report *r)
 {
     PyObject *dict = PyDict_New();
@@ -85,7 +103,7 @@ PyObject *report_dict(const pia_report *r)
     PyObject *reached = r->reached == PIA_AUTO ? Py_NewRef(Py_None) : PyBool_FromLong(r->reached);
     if (put(dict, "reached", reached) == 0 && put(dict, "degree", each_way(r, r->degree[0], r->degree[1])) == 0 &&
         put(dict, "control", each_way(r, r->control[0], r->control[1])) == 0 && put_words(dict, r) == 0 && put_counts(dict, r) == 0 &&
-        put_numbers(dict, r) == 0)
+        put_numbers(dict, r) == 0 && put_axes(dict, r) == 0)
         return dict;
     Py_DECREF(dict);
     return NULL;

@@ -124,6 +124,7 @@ static void data(walk *w, pia_fit *fit)
     optional(w, "weights", PIA_SECTION_DOUBLE, &fit->weights, fit->rows);
     optional(w, "tolerances", PIA_SECTION_DOUBLE, &fit->tolerances, fit->rows);
     optional(w, "inverse_tolerance", PIA_SECTION_DOUBLE, &fit->inverse_tolerance, fit->rows);
+    optional(w, "axis_tolerances", PIA_SECTION_DOUBLE, &fit->axis_tolerances, fit->dim);
     optional(w, "parameters_0", PIA_SECTION_DOUBLE, &fit->parameter[0], first);
     optional(w, "parameters_1", PIA_SECTION_DOUBLE, &fit->parameter[1], fit->count[1]);
     for (int d = 0; d < fit->directions; d++)
@@ -192,6 +193,7 @@ static void rules(walk *w, pia_fit *fit)
     if (w->writer != NULL || w->status != PIA_OK) return;
     *r = (pia_rules){
         .tolerance = v[0], .iterations = counts[0], .change = v[1], .gradient = v[2], .time_limit = v[3], .trace_every = counts[1]};
+    if (fit->tolerances != NULL || fit->axis_tolerances != NULL) r->keeps = pia_fit_keeps_tolerances;
     fit->options.measure_distance = (int)counts[2];
     fit->options.correct = counts[3];
     fit->options.tolerance = v[4];

@@ -7,6 +7,7 @@
  *   fit_constrain.c   points and derivatives met exactly             fit_outcome.c  what is worth saying of the result
  *   fit_robust.c      weights of a robust loss                       fit_epia.c     groups and knot insertion of [2011]
  *   fit_noise.c       a tolerance that the noise suggests            fit_dominant.c Park's dominant columns
+ *   fit_tolerance.c   what rows and components may deviate
  *   sequence*.c       control points that stand for data lines       fit_corners.c  corners, found or given
  *   fit_support.c     control points that the data do not hold        fit_correct.c  rounds of parameter correction
  *   refine*.c         knots for a tolerance                          fit_options.c  defaults, ranges, sentences of options */
@@ -64,6 +65,7 @@ struct pia_fit {
     pia_index dropped_count;
     double *weights;                        /* [rows]; NULL: 1 */
     double *tolerances, *inverse_tolerance; /* [rows] what each row may deviate; NULL: the option for all */
+    double *axis_tolerances;                /* [dim] what each component may deviate beside that; NULL: no such limits */
     int has_holes;
     int unseen; /* 1: nobody has looked at the points yet: no origin, no extent; and the parameters given may not be in order */
     double origin[PIA_MAX_DIM], low[PIA_MAX_DIM], high[PIA_MAX_DIM];
@@ -116,6 +118,14 @@ struct pia_fit {
 pia_status pia_fit_check_options(pia_fit *fit, int directions);
 /* Leaves the points of an open curve with given parameters unseen: the pass that sums them may look at them as well. */
 pia_status pia_fit_take_data(pia_fit *fit, const pia_data *data);
+/* The tolerances of points and axes; options.tolerance becomes the largest that a row has where it was not asked. */
+pia_status pia_fit_take_tolerances(pia_fit *fit, const double *tolerances);
+/* Whether every row keeps its tolerance, on a tolerance that is not the same for all; residuals are made anew. For rules.keeps. */
+int pia_fit_keeps_tolerances(pia_iterate *iterate);
+/* The largest deviation of each component [dim], from the residuals; returns the one that takes most of its tolerance. */
+int pia_fit_axis_errors(const pia_fit *fit, double *out);
+/* Notes the axes that do not keep their tolerance. */
+void pia_fit_describe_axes(pia_fit *fit);
 /* Looks at points that no such pass will see. */
 pia_status pia_fit_see(pia_fit *fit);
 /* The `look` of a normal form, owner a fit: that pass's findings become origin and extent, or an error that names the row. */

@@ -297,25 +297,6 @@ static pia_status take_weights(pia_fit *fit, const double *weights)
     return pia_fail(fit->context, PIA_E_DATA, "the weights add up to %g; at least one must be positive, and none huge", sum);
 }
 
-static pia_status take_tolerances(pia_fit *fit, const double *tolerances)
-{
-    if (tolerances == NULL) return PIA_OK;
-    double largest = 0;
-    fit->tolerances = pia_take(fit->context, fit->rows, sizeof(double));
-    fit->inverse_tolerance = pia_take(fit->context, fit->rows, sizeof(double));
-    if (fit->tolerances == NULL || fit->inverse_tolerance == NULL) return PIA_E_MEMORY;
-    for (pia_index i = 0; i < fit->rows; i++) {
-        if (!(tolerances[i] > 0) || isinf(tolerances[i]))
-            return pia_fail(fit->context, PIA_E_DATA, "tolerance %lld is %g; tolerances are finite and positive", (long long)i,
-                            tolerances[i]);
-        largest = fmax(largest, tolerances[i]);
-        fit->tolerances[i] = tolerances[i];
-        fit->inverse_tolerance[i] = 1 / tolerances[i];
-    }
-    if (!(fit->options.tolerance > 0)) fit->options.tolerance = largest;
-    return PIA_OK;
-}
-
 static pia_status check_shape(pia_fit *fit, const pia_data *data)
 {
     pia_context *context = fit->context;
@@ -389,7 +370,7 @@ pia_status pia_fit_take_data(pia_fit *fit, const pia_data *data)
     fit->unseen = fit->kind == PIA_CURVE && data->parameters != NULL && !fit->function_graph && !fit->options.closed[0];
     if (!fit->unseen) status = see(fit, data->points, data->dim);
     if (status == PIA_OK) status = take_weights(fit, data->weights);
-    if (status == PIA_OK) status = take_tolerances(fit, data->tolerances);
+    if (status == PIA_OK) status = pia_fit_take_tolerances(fit, data->tolerances);
     if (status == PIA_OK && fit->function_graph) return take_graph(fit, data);
     if (status == PIA_OK && !fit->borrowed) {
         fit->own_points = pia_take(fit->context, fit->rows * fit->dim, sizeof(double));

@@ -53,6 +53,7 @@ static void set_rules(pia_fit *fit)
     const pia_fit_options *o = &fit->options;
     fit->solve.rules = (pia_rules){
         .tolerance = o->tolerance,
+        .keeps = fit->tolerances != NULL || fit->axis_tolerances != NULL ? pia_fit_keeps_tolerances : NULL,
         .iterations = o->max_iterations == PIA_AUTO ? fit->solve.method->iterations : o->max_iterations,
         .change = o->stop_change < 0 ? default_change(fit) : o->stop_change,
         .gradient = o->stop_gradient < 0 ? 1e-12 : o->stop_gradient,
@@ -107,7 +108,8 @@ static pia_status take_iterate(pia_fit *fit)
     }
     iterate->extent = fit->extent; /* the pass over the points may have found it */
     int fused = fit->solve.method->step != NULL && fit->solve.limiter == NULL;
-    if (((needs & PIA_NEEDS_ROWS) != 0 && !fused) || (!fit->square && iterate->normal == NULL) || fit->refining) {
+    if (((needs & PIA_NEEDS_ROWS) != 0 && !fused) || (!fit->square && iterate->normal == NULL) || fit->refining ||
+        fit->tolerances != NULL || fit->axis_tolerances != NULL) {
         iterate->residual = pia_take(fit->context, fit->rows * fit->dim, sizeof(double));
         if (iterate->residual == NULL) return PIA_E_MEMORY;
     }
@@ -236,6 +238,7 @@ void pia_fit_close(pia_fit *fit)
     }
     pia_give(context, fit->tolerances);
     pia_give(context, fit->inverse_tolerance);
+    pia_give(context, fit->axis_tolerances);
     pia_give(context, fit->own_points);
     pia_give(context, fit->relaxed);
     pia_give(context, fit->all_parameters);

@@ -16,6 +16,8 @@ static const pia_option table[] = {
      .sentence = "control points; left out: as many as the method or the tolerance needs"},
     {AT(tolerance, NUMBER), RANGE(0, DBL_MAX),
      .sentence = "largest deviation wanted, units of the points; knots are added until it holds; 0: none asked"},
+    {AT(axis_tolerances, NUMBERS), COUNTED(axis_tolerance_count),
+     .sentence = "largest deviation wanted of each component that is fitted, beside the tolerance of the whole"},
     {AT(measure_distance, SWITCH), RANGE(0, 1), .sentence = "tolerance and report measure true distance"},
     {AT(method, NAME), .values = "method", .sentence = "how the fit is computed; left out: auto"},
     {AT(method_options, SETTINGS), COUNTED(method_option_count), .sentence = "parameters of the method"},

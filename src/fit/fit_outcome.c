@@ -48,6 +48,7 @@ void pia_fit_conclude(pia_fit *fit)
     describe_shape(fit);
     pia_fit_describe_directions(fit);
     pia_fit_describe_outliers(fit);
+    pia_fit_describe_axes(fit);
     if (fit->iterate.groups != NULL) pia_epia_outcome(fit);
     pia_fit_describe_support(fit);
 }

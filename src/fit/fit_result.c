@@ -52,9 +52,10 @@ static void describe(const pia_fit *fit, pia_report *report)
 }
 
 /* From the errors just measured. */
-static int reached(const pia_fit *fit)
+static int reached(pia_fit *fit)
 {
     if (fit->refining) return pia_refine_worst(fit, 0, fit->rows) <= 1;
+    if (fit->options.tolerance > 0 && fit->solve.rules.keeps != NULL) return fit->solve.rules.keeps(&fit->iterate);
     return fit->options.tolerance > 0 ? fit->iterate.errors.max <= fit->options.tolerance : PIA_AUTO;
 }
 
@@ -63,12 +64,14 @@ static void describe_errors(pia_fit *fit, pia_report *report)
     const pia_errors *errors = &fit->iterate.errors;
     report->max_error_index = -1;
     report->max_error = report->rms_error = NAN;
-    report->reached = PIA_AUTO;
+    report->reached = report->worst_axis = PIA_AUTO;
+    for (int d = 0; d < PIA_MAX_DIM; d++) report->axis_error[d] = NAN;
     if (!fit->iterate.errors_known) return;
     report->max_error = errors->max;
     report->max_error_index = data_row(fit, errors->max_row);
     report->rms_error = errors->count > 0 ? sqrt(errors->sum_squares / (double)errors->count) : 0;
     report->reached = reached(fit);
+    if (fit->axis_tolerances != NULL) report->worst_axis = pia_fit_axis_errors(fit, report->axis_error);
     if (isnan(fit->solve.start_error)) fit->solve.start_error = errors->max;
 }
 

@@ -39,6 +39,15 @@ int pia_refine_reached(const pia_fit *fit)
     return pia_refine_worst_of_all(fit) <= 1;
 }
 
+/* A tolerance that would do; where not all rows may deviate alike, how many times theirs. */
+static void note_reachable(pia_fit *fit)
+{
+    int alike = fit->tolerances == NULL && fit->axis_tolerances == NULL;
+    pia_fit_note_add(fit, "the tolerance cannot be had with these parameters%s: no knot is left that the data could hold; %g%s can",
+                     fit->constraint_count > 0 ? " and constraints" : "",
+                     alike ? fit->iterate.errors.max : pia_refine_worst(fit, 0, fit->rows), alike ? "" : " times it");
+}
+
 pia_status pia_refine(pia_fit *fit, pia_index iterations)
 {
     pia_index done = fit->iterate.iteration;
@@ -54,9 +63,7 @@ pia_status pia_refine(pia_fit *fit, pia_index iterations)
     if (status != PIA_OK) return status;
     if (fit->solve.stop == PIA_STOP_NONE && !fit->paused)
         fit->solve.stop = pia_refine_reached(fit) ? PIA_STOP_TOLERANCE : PIA_STOP_NO_KNOT_LEFT;
-    if (fit->solve.stop == PIA_STOP_NO_KNOT_LEFT)
-        pia_fit_note_add(fit, "the tolerance cannot be had with these parameters%s: no knot is left that the data could hold; %g can",
-                         fit->constraint_count > 0 ? " and constraints" : "", fit->iterate.errors.max);
+    if (fit->solve.stop == PIA_STOP_NO_KNOT_LEFT) note_reachable(fit);
     if (fit->solve.stop == PIA_STOP_NO_KNOT_LEFT) status = pia_refine_explain(fit);
     if (status == PIA_OK && fit->solve.stop != PIA_STOP_NONE) status = pia_fit_bind(fit);
     if (status != PIA_OK) return status;

@@ -114,9 +114,12 @@ static pia_status check_values(pia_fit *fit)
         const pia_fit_constraint *c = &fit->constraint[i];
         if (c->asked.at_point == PIA_AUTO || c->value == NULL || c->asked.derivative[0] + c->asked.derivative[1] > 0) continue;
         pia_index row = pia_fit_row(fit, c->asked.at_point);
-        double square = 0;
-        for (int d = 0; d < fit->dim; d++) square += pow(c->value[d] - fit->points[row * fit->dim + d], 2);
-        if (sqrt(square) > pia_refine_allowed(fit, row))
+        double deviation[PIA_MAX_DIM], square = 0;
+        for (int d = 0; d < fit->dim; d++) {
+            deviation[d] = c->value[d] - fit->points[row * fit->dim + d];
+            square += deviation[d] * deviation[d];
+        }
+        if (pia_refine_ratio(fit, row, deviation) > 1)
             return pia_fail(
                 fit->context, PIA_E_CONSTRAINT,
                 "the constraint at point %lld asks for a value that is %.6g away from it, but it may deviate by %.6g; raise "

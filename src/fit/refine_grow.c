@@ -6,34 +6,6 @@
 
 enum { MOST_PARTS = 8 };
 
-/* A row without weight says nothing. */
-double pia_refine_allowed(const pia_fit *fit, pia_index row)
-{
-    if (fit->weights != NULL && fit->weights[row] == 0) return INFINITY;
-    return fit->tolerances != NULL ? fit->tolerances[row] : fit->options.tolerance;
-}
-
-double pia_refine_ratio(const pia_fit *fit, pia_index row, const double *deviation)
-{
-    double square = 0;
-    for (int d = 0; d < fit->dim; d++) square += deviation[d] * deviation[d];
-    return sqrt(square) / pia_refine_allowed(fit, row);
-}
-
-double pia_refine_worst(const pia_fit *fit, pia_index begin, pia_index end)
-{
-    double worst = 0;
-    for (pia_index row = begin; row < end; row++)
-        worst = fmax(worst, pia_refine_ratio(fit, row, fit->iterate.residual + row * fit->dim));
-    return worst;
-}
-
-double pia_refine_worst_of_all(const pia_fit *fit)
-{
-    int alike = fit->tolerances == NULL && fit->weights == NULL && fit->iterate.errors_known;
-    return alike ? fit->iterate.errors.max / fit->options.tolerance : pia_refine_worst(fit, 0, fit->rows);
-}
-
 /* Parts that a span is to be split into: the error of a degree p spline falls with the (p + 1)st power of its spans. */
 static int parts_of(const pia_fit *fit, double ratio)
 {

@@ -26,10 +26,12 @@ typedef struct round_work {
     pia_index chunks;
 } round_work;
 
-/* x := x + b - a, b = the nearest to 2 a - x within the ball, a the residual; and what is missing from a to x. */
+/* x := x + b - a, b = the nearest to 2 a - x within the ball, a the residual; and what is missing from a to x. With limits of
+ * components b is brought into the box as well: a point of both, nearest where only one of them is left. */
 static void reflect_chunk(void *work, pia_index chunk)
 {
     const round_work *w = work;
+    const double *axis = w->fit->axis_tolerances;
     int dim = w->fit->dim;
     pia_index begin = pia_chunk_begin(w->fit->rows, w->chunks, chunk), end = pia_chunk_begin(w->fit->rows, w->chunks, chunk + 1);
     for (pia_index row = begin; row < end; row++) {
@@ -40,7 +42,8 @@ static void reflect_chunk(void *work, pia_index chunk)
         for (int d = 0; d < dim; d++) square += reflected[d] * reflected[d];
         double factor = square > allowed * allowed ? allowed / sqrt(square) : 1;
         for (int d = 0; d < dim; d++) {
-            x[d] += factor * reflected[d] - a[d];
+            double most = axis != NULL ? INSIDE * axis[d] : INFINITY;
+            x[d] += fmax(-most, fmin(factor * reflected[d], most)) - a[d];
             missing[d] = a[d] - x[d];
         }
     }

@@ -82,7 +82,8 @@ typedef struct pass {
     pia_index offset;          /* closed: control point at which the first segment begins */
     pia_draft *draft;          /* [segments] */
     candidate *order;          /* [count + segments (degree + 1)] */
-    double *work;              /* [BATCH x room] */
+    double inverse_axis[PIA_MAX_DIM];
+    double *work; /* [BATCH x room] */
     pia_index room;
 } pass;
 
@@ -208,6 +209,8 @@ static pia_status open_pass(pia_fit *fit, pass *s)
                                .inverse_one = 1 / fit->options.tolerance,
                                .rows = fit->rows,
                                .periodic = fit->closed[0]};
+    if (fit->axis_tolerances != NULL) s->data.inverse_axis = s->inverse_axis;
+    for (int d = 0; fit->axis_tolerances != NULL && d < fit->dim; d++) s->inverse_axis[d] = 1 / fit->axis_tolerances[d];
     s->room = pia_draft_room(s->degree, s->dim, REACH);
     s->knots = pia_take(context, knots, sizeof(double));
     s->control = pia_take(context, count * s->dim, sizeof(double));

@@ -61,6 +61,17 @@ static void write_member(pia_output *output, const pia_report *report, const mem
     }
 }
 
+static void write_axes(pia_output *output, const pia_report *report)
+{
+    if (report->worst_axis == PIA_AUTO) return;
+    pia_output_text(output, ", \"worst_axis\": %d, \"axis_errors\": [", report->worst_axis);
+    for (int d = 0; d < PIA_MAX_DIM && !isnan(report->axis_error[d]); d++) {
+        if (d > 0) pia_output_text(output, ", ");
+        pia_json_write_real(output, report->axis_error[d]);
+    }
+    pia_output_text(output, "]");
+}
+
 void pia_json_write_fit(pia_output *output, const pia_summary *summary)
 {
     const pia_report *report = &summary->report;
@@ -71,6 +82,7 @@ void pia_json_write_fit(pia_output *output, const pia_summary *summary)
         pia_output_text(output, ", \"degree\": [%d, %d]", report->degree[0], report->degree[1]);
     pia_output_text(output, ", \"control\": [%lld, %lld]", (long long)report->control[0], (long long)report->control[1]);
     for (int i = 0; i < PLAIN_MEMBERS; i++) write_member(output, report, &plain_member[i]);
+    write_axes(output, report);
     pia_output_text(output,
                     ", \"stop\": \"%s\", \"reached\": %s, \"measure\": \"%s\", \"seconds\": {\"fit\": ", pia_stop_name(report->stop),
                     report->reached == PIA_AUTO ? "null"
@@ -127,6 +139,16 @@ static void read_words(const json_t *fit, pia_report *report)
     report->measure_distance = measure != NULL && strcmp(measure, "distance") == 0;
 }
 
+static void read_axes(const json_t *fit, pia_report *report)
+{
+    const json_t *errors = json_object_get(fit, "axis_errors"), *worst = json_object_get(fit, "worst_axis");
+    size_t count = json_array_size(errors);
+    int known = json_is_number(worst) && whole(worst) >= 0 && whole(worst) < (pia_index)count && count <= PIA_MAX_DIM;
+    report->worst_axis = known ? (int)whole(worst) : PIA_AUTO;
+    for (size_t d = 0; d < PIA_MAX_DIM; d++)
+        report->axis_error[d] = known && d < count ? json_number_value(json_array_get(errors, d)) : NAN;
+}
+
 int pia_json_read_fit(const pia_memory *memory, const json_t *fit, pia_summary *summary)
 {
     pia_report *report = &summary->report;
@@ -138,6 +160,7 @@ int pia_json_read_fit(const pia_memory *memory, const json_t *fit, pia_summary *
         report->control[d] = whole(json_array_get(control, d));
     }
     for (int i = 0; i < PLAIN_MEMBERS; i++) read_member(fit, &plain_member[i], report);
+    read_axes(fit, report);
     const json_t *reached = json_object_get(fit, "reached");
     report->reached = json_is_boolean(reached) ? json_is_true(reached) : PIA_AUTO;
     report->seconds = json_number_value(json_object_get(json_object_get(fit, "seconds"), "fit"));

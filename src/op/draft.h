@@ -8,6 +8,8 @@
 
 #include "context.h"
 
+#include <math.h>
+
 /* What a curve is to meet exactly: its derivative of this order at the parameter. */
 typedef struct pia_draft_condition {
     double parameter;
@@ -20,11 +22,20 @@ typedef struct pia_draft_data {
     const double *parameters, *points, *origin;
     const double *inverse_tolerance; /* [rows]; NULL: inverse_one for all */
     double inverse_one;
+    const double *inverse_axis; /* [dim] the same of each component, which is kept as well; NULL: no such limits */
     pia_index rows;
     int periodic; /* 1: rows repeat with period 1 in the parameter; row numbers are unrolled: any integer is one */
     const pia_draft_condition *condition; /* [condition_count], parameters rising */
     pia_index condition_count;
 } pia_draft_data;
+
+/* The largest component [dim] of a deviation over what it may be. */
+static inline double pia_axis_ratio(const double *deviation, const double *inverse_axis, int dim)
+{
+    double ratio = 0;
+    for (int d = 0; d < dim; d++) ratio = fmax(ratio, fabs(deviation[d]) * inverse_axis[d]);
+    return ratio;
+}
 
 /* Marks of a knot. */
 enum { PIA_DRAFT_SPARED = 1, PIA_DRAFT_MERGED = 2, PIA_DRAFT_KEPT = 4 };

@@ -108,7 +108,14 @@ static inline __attribute__((always_inline)) void sum_band(const pia_window *w, 
     }
 }
 
-/* Squared ratios of all rows, and what Lawson's weights make of them. */
+/* Lawson's weights add up to the number of rows. */
+static inline void share_out(pia_rows *r, double total)
+{
+    double factor = total > 0 ? (double)r->count / total : 1;
+    for (pia_index k = 0; k < r->count; k++) r->weight[k] *= factor;
+}
+
+/* The largest ratio of all rows, the bound from below, and what Lawson makes of the weights. */
 static inline __attribute__((always_inline)) double judge(const pia_window *w, pia_rows *r, int p, int dim, double *bound)
 {
     double worst = 0, weighted = 0, total = 0, moved = 0;
@@ -124,8 +131,31 @@ static inline __attribute__((always_inline)) double judge(const pia_window *w, p
         moved += r->weight[k];
     }
     *bound = total > 0 ? sqrt(weighted / total) : 0;
-    double factor = moved > 0 ? (double)r->count / moved : 1;
-    for (pia_index k = 0; k < r->count; k++) r->weight[k] *= factor;
+    share_out(r, moved);
+    return worst;
+}
+
+/* The same with limits for components. One weight a row serves all components, so that each of them has a bound of its own. */
+static double judge_axes(const pia_window *w, pia_rows *r, const double *inverse_axis, int p, int dim, double *bound)
+{
+    double worst = 0, weighted[PIA_MAX_DIM + 1] = {0}, total = 0, moved = 0;
+    for (pia_index k = 0; k < r->count; k++) {
+        double difference[PIA_MAX_DIM], square = 0;
+        pia_row_difference(r, k, w->point, p, dim, difference);
+        for (int d = 0; d < dim; d++) {
+            square += difference[d] * difference[d];
+            weighted[d] += r->weight[k] * pow(difference[d] * inverse_axis[d], 2);
+        }
+        weighted[dim] += r->weight[k] * square * r->inverse[k] * r->inverse[k];
+        double ratio = fmax(sqrt(square) * r->inverse[k], pia_axis_ratio(difference, inverse_axis, dim));
+        total += r->weight[k];
+        if (!(ratio <= worst)) worst = ratio;
+        r->weight[k] *= ratio + 1e-3;
+        moved += r->weight[k];
+    }
+    *bound = 0;
+    for (int d = 0; d <= dim && total > 0; d++) *bound = fmax(*bound, sqrt(weighted[d] / total));
+    share_out(r, moved);
     return worst;
 }
 
@@ -156,8 +186,10 @@ static void correct_piece(pia_window *w, const pia_rows *r, int p, int dim)
 
 /* Rounds until the rows keep their tolerance, or the weighted root mean square proves that they cannot: no choice of the unknowns has
  * a smaller largest ratio. */
-static double fit_rows(pia_window *w, pia_rows *r, const pia_held *held, int p, int dim, int cyclic, int rounds)
+static double fit_rows(const pia_draft *draft, pia_window *w, pia_rows *r, const pia_held *held, int rounds)
 {
+    const double *inverse_axis = draft->data->inverse_axis;
+    int p = draft->degree, dim = draft->dim, cyclic = draft->cyclic;
     double ratio = INFINITY;
     for (int round = 0; round <= rounds; round++) {
         double bound;
@@ -167,7 +199,10 @@ static double fit_rows(pia_window *w, pia_rows *r, const pia_held *held, int p, 
             pia_window_correct_cyclic(w, r, p, dim);
         else
             correct_piece(w, r, p, dim);
-        PIA_UNROLL(ratio =, judge, p, dim, &bound);
+        if (inverse_axis != NULL)
+            ratio = judge_axes(w, r, inverse_axis, p, dim, &bound);
+        else
+            PIA_UNROLL(ratio =, judge, p, dim, &bound);
         if (ratio <= KEPT || bound > 1 || !isfinite(ratio)) break;
     }
     return ratio;
@@ -214,19 +249,23 @@ static inline __attribute__((always_inline)) void squares_of(const piece *c, con
     }
 }
 
-/* The same for degrees whose powers lose digits. */
-static void squares_plain(const pia_window *w, const double *t, double shift, const double *q, const double *origin, int span,
-                          int count, int p, int dim, double *square)
+/* The same for degrees whose powers lose digits, and for limits of components, as the distance that would be as bad. */
+static void squares_plain(const pia_window *w, const pia_draft_data *data, pia_index at, double shift, int span, int count, int p,
+                          int dim, double *square)
 {
-    double basis[PIA_MAX_DEGREE + 1];
+    double basis[PIA_MAX_DEGREE + 1], difference[PIA_MAX_DIM];
     for (int k = 0; k < count; k++) {
-        pia_basis_values(w->knots, p, span, t[k] + shift, basis);
+        const double *q = data->points + (at + k) * dim;
+        pia_basis_values(w->knots, p, span, data->parameters[at + k] + shift, basis);
         square[k] = 0;
         for (int d = 0; d < dim; d++) {
-            double difference = q[k * dim + d] - origin[d];
-            for (int i = 0; i <= p; i++) difference -= basis[i] * w->point[(span - p + i) * dim + d];
-            square[k] += difference * difference;
+            difference[d] = q[d] - data->origin[d];
+            for (int i = 0; i <= p; i++) difference[d] -= basis[i] * w->point[(span - p + i) * dim + d];
+            square[k] += difference[d] * difference[d];
         }
+        if (data->inverse_axis == NULL) continue;
+        double inverse = data->inverse_tolerance != NULL ? data->inverse_tolerance[at + k] : data->inverse_one;
+        square[k] = fmax(square[k], pow(pia_axis_ratio(difference, data->inverse_axis, dim) / inverse, 2));
     }
 }
 
@@ -244,14 +283,14 @@ static double worst_of(const pia_draft *draft, const pia_window *w, const piece 
         pia_index left = to - k < data->rows - at ? to - k : data->rows - at;
         int count = left < BLOCK ? (int)left : BLOCK;
         const double *t = data->parameters + at, *q = data->points + at * dim;
-        if (p == 3 && dim == 2)
+        if (p > POLYNOMIAL || data->inverse_axis != NULL)
+            squares_plain(w, data, at, shift, span, count, p, dim, square);
+        else if (p == 3 && dim == 2)
             squares_of(c, t, shift, q, data->origin, count, 3, 2, square);
         else if (p == 3 && dim == 3)
             squares_of(c, t, shift, q, data->origin, count, 3, 3, square);
-        else if (p <= POLYNOMIAL)
-            squares_of(c, t, shift, q, data->origin, count, p, dim, square);
         else
-            squares_plain(w, t, shift, q, data->origin, span, count, p, dim, square);
+            squares_of(c, t, shift, q, data->origin, count, p, dim, square);
         for (int i = 0; i < count; i++) {
             double inverse = data->inverse_tolerance != NULL ? data->inverse_tolerance[at + i] : data->inverse_one;
             double ratio = square[i] * inverse * inverse;
@@ -300,7 +339,7 @@ double pia_window_fit(pia_draft *draft, pia_window *w, int rounds)
     find_spans(draft, w, begin);
     sample_rows(draft, w, begin, all, &r);
     for (int k = 0; k < EXCHANGES; k++) {
-        double ratio = fit_rows(w, &r, &held, p, draft->dim, draft->cyclic, rounds);
+        double ratio = fit_rows(draft, w, &r, &held, rounds);
         if (!(ratio <= 1) || !pia_window_holds(w, &held, p, draft->dim)) return INFINITY;
         if (all) return ratio;
         ratio = exchange(draft, w, begin, &r);

@@ -11,13 +11,14 @@
 enum { PIA_PATIENCE = 400 };
 
 typedef struct pia_rules {
-    double tolerance;            /* largest deviation; 0: none */
-    pia_index iterations;        /* most updates since the start or the last edit */
-    double change;               /* stop when no control point moves more, units of the points; 0: never */
-    double gradient;             /* stop at this relative gradient; 0: never */
-    double time_limit;           /* seconds in all; 0: none */
-    pia_index trace_every;       /* 0: no trace */
-    int (*progress)(void *user); /* NULL: none; non-zero cancels */
+    double tolerance;                   /* largest deviation; 0: none */
+    int (*keeps)(pia_iterate *iterate); /* NULL, or whether the current P keeps a tolerance that is not the same for all rows */
+    pia_index iterations;               /* most updates since the start or the last edit */
+    double change;                      /* stop when no control point moves more, units of the points; 0: never */
+    double gradient;                    /* stop at this relative gradient; 0: never */
+    double time_limit;                  /* seconds in all; 0: none */
+    pia_index trace_every;              /* 0: no trace */
+    int (*progress)(void *user);        /* NULL: none; non-zero cancels */
     void *user;
 } pia_rules;
 

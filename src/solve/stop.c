@@ -18,6 +18,13 @@ static int runs_away(const pia_solve *solve)
     return !(solve->iterate->adjust_max <= FARTHEST * solve->reach);
 }
 
+static int keeps_tolerance(const pia_solve *solve)
+{
+    const pia_rules *rules = &solve->rules;
+    if (!(rules->tolerance > 0) || !solve->iterate->errors_known) return 0;
+    return rules->keeps != NULL ? rules->keeps(solve->iterate) : solve->iterate->errors.max <= rules->tolerance;
+}
+
 int pia_stop_needs_errors(const pia_solve *solve)
 {
     const pia_rules *rules = &solve->rules;
@@ -29,7 +36,7 @@ pia_stop pia_stop_before(const pia_solve *solve)
 {
     const pia_iterate *iterate = solve->iterate;
     const pia_rules *rules = &solve->rules;
-    if (rules->tolerance > 0 && iterate->errors_known && iterate->errors.max <= rules->tolerance) return PIA_STOP_TOLERANCE;
+    if (keeps_tolerance(solve)) return PIA_STOP_TOLERANCE;
     if (iterate->iteration - solve->first_iteration >= rules->iterations) return PIA_STOP_ITERATIONS;
     if (rules->time_limit > 0 && solve->seconds >= rules->time_limit) return PIA_STOP_TIME;
     return PIA_STOP_NONE;
@@ -40,7 +47,7 @@ pia_stop pia_stop_after(const pia_solve *solve)
     const pia_iterate *iterate = solve->iterate;
     const pia_rules *rules = &solve->rules;
     if (iterate->finished) return PIA_STOP_FINITE;
-    if (rules->tolerance > 0 && iterate->errors_known && iterate->errors.max <= rules->tolerance) return PIA_STOP_TOLERANCE;
+    if (keeps_tolerance(solve)) return PIA_STOP_TOLERANCE;
     if (runs_away(solve)) return PIA_STOP_STALLED;
     if (rules->gradient > 0 && iterate->relative_gradient <= rules->gradient) return PIA_STOP_GRADIENT;
     if (iterate->stalled) return PIA_STOP_STALLED;

@@ -75,6 +75,18 @@ def judge(name, points, share, options=(), closed=False, met=()):
     faults += bool(complaints)
 
 
+def judge_axes(name, points, shares, options=()):
+    """The same for a curve with a tolerance for each axis."""
+    global faults
+    tolerances = np.array(shares) * np.linalg.norm(np.ptp(points, axis=0))
+    status, report, model = fit(points, [*options, "--tolerance", ",".join(map(repr, tolerances.tolist()))])
+    control = np.array(model["control_points"]["points"], float)
+    off = np.abs(values(model, "", control, lengths(points, False)) - points).max(axis=0)
+    wrong = status != 0 or not report["reached"] or (off > tolerances * (1 + 1e-9)).any() or not np.allclose(off, report["axis_errors"])
+    print(f"{name} by axis: {report['control_count']} control points, {off / tolerances} of the tolerances", "WRONG" * wrong)
+    faults += bool(wrong)
+
+
 def columns(name, count):
     with open(os.path.join(root, "data", name)) as file:
         rows = [line.replace(",", " ").split() for line in file]
@@ -92,6 +104,7 @@ random = np.random.default_rng(4)
 for share in (1e-1, 1e-2, 1e-3, 1e-4, 1e-5):
     judge("airfoil", columns("airfoil/rae2822.dat", 2), share)
     judge("airfoil met", columns("airfoil/rae2822.dat", 2), share, ["--interpolate", "ends,30,77"], met=(0, 30, 77, 128))
+    judge_axes("airfoil", columns("airfoil/rae2822.dat", 2), (share, share / 7))
 for degree in range(1, 6):
     t = np.sort(random.uniform(0, 1, 200))
     wave = np.stack([np.cos(6.283 * t * (k + 1) + k) + k for k in range(1 + degree % 4)] + [t], axis=1)

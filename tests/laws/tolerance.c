@@ -52,7 +52,12 @@ static double largest_ratio(pia_context *context, const problem *p, pia_fit *fit
     for (pia_index i = 0; i < count; i++) {
         pia_index at = row != NULL ? row[i] : i;
         double square = 0;
-        for (int d = 0; d < dim; d++) square += pow(value[i * dim + d] - p->points[at * dim + d], 2);
+        for (int d = 0; d < dim; d++) {
+            double off = fabs(value[i * dim + d] - p->points[at * dim + d]);
+            square += off * off;
+            if (p->options.axis_tolerance_count > 0) worst = fmax(worst, off / p->options.axis_tolerances[d]);
+        }
+        if (p->data.tolerances == NULL && p->options.tolerance == 0) continue;
         double allowed = p->data.tolerances != NULL ? p->data.tolerances[at] : p->options.tolerance;
         worst = fmax(worst, sqrt(square) / allowed);
     }
@@ -116,6 +121,103 @@ static void tolerances_a_point_are_kept(void **state)
     p.data.tolerances = tolerances;
     check_problem(context, &p, 60);
     free(tolerances);
+    free(p.points);
+    pia_context_destroy(context);
+}
+
+/* Open and closed, of a degree whose powers lose digits too, alone and beside tolerances of points. */
+static void tolerances_an_axis_are_kept(void **state)
+{
+    (void)state;
+    static const double axes[] = {1, 0.02, 0.5};
+    static const int degrees[] = {3, 8};
+    pia_context *context;
+    double tolerances[500];
+    assert_ok(NULL, pia_context_create(NULL, &context));
+    for (int i = 0; i < 500; i++) tolerances[i] = i < 250 ? 2 : 0.05;
+    for (int degree = 0; degree < 2; degree++)
+        for (int closed = 0; closed < 2; closed++)
+            for (int points = 0; points < 2; points++) {
+                problem p = wavy(degrees[degree], closed, 3, 500, 0);
+                p.options.axis_tolerances = axes;
+                p.options.axis_tolerance_count = 3;
+                if (points) p.data.tolerances = tolerances;
+                check_problem(context, &p, 70);
+                free(p.points);
+            }
+    pia_context_destroy(context);
+}
+
+/* A box is no smaller than the ball in it; and what is far too loose does not count. */
+static void a_loose_axis_costs_no_control_points(void **state)
+{
+    (void)state;
+    static const double loose[] = {0.05, 1e6}, box[] = {0.05, 0.05};
+    pia_context *context;
+    pia_report ball = {.struct_size = sizeof ball}, report = {.struct_size = sizeof report};
+    assert_ok(NULL, pia_context_create(NULL, &context));
+    problem p = wavy(3, 0, 2, 400, 0.05);
+    p.options.parametrization = "uniform";
+    assert_ok(context, pia_fit_data(context, &p.data, &p.options, NULL, &ball));
+    assert_int_equal(ball.worst_axis, PIA_AUTO);
+    p.options.tolerance = 0;
+    p.options.axis_tolerance_count = 2;
+    p.options.axis_tolerances = box;
+    assert_ok(context, pia_fit_data(context, &p.data, &p.options, NULL, &report));
+    assert_true(report.control_count <= ball.control_count + 1);
+    p.options.axis_tolerances = loose;
+    assert_ok(context, pia_fit_data(context, &p.data, &p.options, NULL, &report));
+    assert_true(report.control_count < ball.control_count);
+    assert_int_equal(report.worst_axis, 0);
+    assert_true(report.axis_error[0] <= 0.05 && report.axis_error[1] > 0.05);
+    free(p.points);
+    pia_context_destroy(context);
+}
+
+/* With so many control points as asked for, the one tolerance of all is not taken for those of points or axes. */
+static void reached_means_every_tolerance_whatever_the_method(void **state)
+{
+    (void)state;
+    static const double axes[] = {10, 1e-6};
+    pia_context *context;
+    pia_report report = {.struct_size = sizeof report};
+    double tolerances[400];
+    assert_ok(NULL, pia_context_create(NULL, &context));
+    for (int i = 0; i < 400; i++) tolerances[i] = i == 200 ? 1e-6 : 10;
+    for (int by_axis = 0; by_axis < 2; by_axis++) {
+        problem p = wavy(3, 0, 2, 400, 0);
+        p.options.control[0] = 20;
+        if (by_axis)
+            p.options.axis_tolerances = axes;
+        else
+            p.data.tolerances = tolerances;
+        p.options.axis_tolerance_count = by_axis ? 2 : 0;
+        for (int method = 0; method < 2; method++) {
+            p.options.method = method == 0 ? "direct" : "lspia";
+            assert_ok(context, pia_fit_data(context, &p.data, &p.options, NULL, &report));
+            assert_int_equal(report.reached, 0);
+            assert_true(report.stop != PIA_STOP_TOLERANCE);
+            assert_int_equal(report.worst_axis, by_axis ? 1 : PIA_AUTO);
+        }
+        free(p.points);
+    }
+    pia_context_destroy(context);
+}
+
+static void axis_tolerances_that_make_no_sense_are_refused(void **state)
+{
+    (void)state;
+    static const double axes[] = {1, 0, 1};
+    pia_context *context;
+    assert_ok(NULL, pia_context_create(NULL, &context));
+    problem p = wavy(3, 0, 2, 100, 0);
+    p.options.axis_tolerances = axes;
+    p.options.axis_tolerance_count = 3;
+    assert_int_equal(pia_fit_data(context, &p.data, &p.options, NULL, NULL), PIA_E_SHAPE);
+    assert_non_null(strstr(pia_message(context), "3 axis tolerances were given, but 2 components"));
+    p.options.axis_tolerance_count = 2;
+    assert_int_equal(pia_fit_data(context, &p.data, &p.options, NULL, NULL), PIA_E_ARGUMENT);
+    assert_non_null(strstr(pia_message(context), "axis tolerance 1 is 0"));
     free(p.points);
     pia_context_destroy(context);
 }
@@ -220,6 +322,27 @@ static void surfaces_keep_the_tolerance(void **state)
     check_sheet(context, &p, 350);
     free(parameters);
     free(p.points);
+    pia_context_destroy(context);
+}
+
+static void surfaces_keep_the_tolerances_of_axes(void **state)
+{
+    (void)state;
+    static const double axes[] = {0.5, 0.5, 0.03};
+    pia_context *context;
+    pia_report report = {.struct_size = sizeof report};
+    assert_ok(NULL, pia_context_create(NULL, &context));
+    for (int kind = PIA_GRID; kind <= PIA_SCATTERED; kind++) {
+        problem p = sheet((pia_kind)kind, 3, 0, 0);
+        p.options.axis_tolerances = axes;
+        p.options.axis_tolerance_count = 3;
+        pia_model *model;
+        assert_ok(context, pia_fit_data(context, &p.data, &p.options, &model, &report));
+        assert_int_equal(report.reached, 1);
+        for (int d = 0; d < 3; d++) assert_true(report.axis_error[d] <= axes[d]);
+        pia_model_destroy(model);
+        free(p.points);
+    }
     pia_context_destroy(context);
 }
 
@@ -496,8 +619,13 @@ int main(void)
         cmocka_unit_test(a_fit_that_says_reached_keeps_the_tolerance),
         cmocka_unit_test(high_degrees_keep_the_tolerance),
         cmocka_unit_test(tolerances_a_point_are_kept),
+        cmocka_unit_test(tolerances_an_axis_are_kept),
+        cmocka_unit_test(a_loose_axis_costs_no_control_points),
+        cmocka_unit_test(reached_means_every_tolerance_whatever_the_method),
+        cmocka_unit_test(axis_tolerances_that_make_no_sense_are_refused),
         cmocka_unit_test(the_number_of_threads_changes_no_bit),
         cmocka_unit_test(surfaces_keep_the_tolerance),
+        cmocka_unit_test(surfaces_keep_the_tolerances_of_axes),
         cmocka_unit_test(a_letter_needs_few_control_points),
         cmocka_unit_test(corners_are_sharp_whether_found_or_given),
         cmocka_unit_test(a_corner_that_does_not_exist_is_refused),

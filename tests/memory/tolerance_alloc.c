@@ -104,6 +104,9 @@ static void constraints_survive_every_failure(void **state)
     double weights[ROWS * COLUMNS];
     for (int kind = 0; kind < 4; kind++) {
         problem p = kind == 3 ? grid_problem() : curve_problem(kind == 1);
+        static const double axes[] = {0.3, 0.2, 0.2};
+        p.options.axis_tolerances = axes;
+        p.options.axis_tolerance_count = kind == 2 ? 0 : p.data.dim;
         p.options.interpolate = met;
         p.options.interpolate_count = 5;
         for (int i = 0; i < ROWS * COLUMNS; i++) weights[i] = 1 + i % 3;

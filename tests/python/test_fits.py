@@ -123,6 +123,18 @@ class Curves(Case):
         model = pia.fit_curve(wave(200), tolerances=[1e-2] * 100 + [1e-4] * 100)
         self.assertIs(model.report.reached, True)
 
+    def test_tolerances_belong_to_axes(self):
+        report = pia.fit_curve(wave(200), axis_tolerances=[1e-2, 1e-4]).report
+        self.assertIs(report.reached, True)
+        self.assertTrue(report.axis_error[0] <= 1e-2 and report.axis_error[1] <= 1e-4)
+        report = pia.fit_curve(wave(200), axis_tolerances=[1, 1e-9], control=8).report
+        self.assertIs(report.reached, False)
+        self.assertEqual(report.worst_axis, 1)
+        self.assertIn("axis 2 of 2", " ".join(report.warnings))
+        self.assertIsNone(pia.fit_curve(wave(200), tolerance=1e-3).report.axis_error)
+        with self.assertRaises(pia.ShapeError):
+            pia.fit_curve(wave(200), axis_tolerances=[1])
+
     def test_threads_do_not_change_a_bit(self):
         points = wave(20000)
         self.same(pia.fit_curve(points, control=300, threads=1).control, pia.fit_curve(points, control=300, threads=4).control)

@@ -1,0 +1,116 @@
+/* What rows may deviate: a distance, for all or each its own, and beside it what each component may. A deviation counts as its ratio to
+ * what is allowed, the largest of them where there are several. */
+#include "draft.h"
+#include "refine.h"
+
+#include <math.h>
+#include <string.h>
+
+static pia_status take_rows(pia_fit *fit, const double *tolerances, double *largest)
+{
+    fit->tolerances = pia_take(fit->context, fit->rows, sizeof(double));
+    fit->inverse_tolerance = pia_take(fit->context, fit->rows, sizeof(double));
+    if (fit->tolerances == NULL || fit->inverse_tolerance == NULL) return PIA_E_MEMORY;
+    for (pia_index i = 0; i < fit->rows; i++) {
+        if (!(tolerances[i] > 0) || isinf(tolerances[i]))
+            return pia_fail(fit->context, PIA_E_DATA, "tolerance %lld is %g; tolerances are finite and positive", (long long)i,
+                            tolerances[i]);
+        *largest = fmax(*largest, tolerances[i]);
+        fit->tolerances[i] = tolerances[i];
+        fit->inverse_tolerance[i] = 1 / tolerances[i];
+    }
+    return PIA_OK;
+}
+
+/* The box of the axes is inside a ball: that is the tolerance of the whole where none was asked. */
+static pia_status take_axes(pia_fit *fit, double *ball)
+{
+    const pia_fit_options *o = &fit->options;
+    double square = 0;
+    if (o->axis_tolerance_count != fit->dim)
+        return pia_fail(fit->context, PIA_E_SHAPE, "%lld axis tolerances were given, but %d components are fitted; give one for each",
+                        (long long)o->axis_tolerance_count, fit->dim);
+    fit->axis_tolerances = pia_take(fit->context, fit->dim, sizeof(double));
+    if (fit->axis_tolerances == NULL) return PIA_E_MEMORY;
+    for (int d = 0; d < fit->dim; d++) {
+        double tolerance = o->axis_tolerances[d];
+        if (!(tolerance > 0) || isinf(tolerance))
+            return pia_fail(fit->context, PIA_E_ARGUMENT, "axis tolerance %d is %g; tolerances are finite and positive", d, tolerance);
+        fit->axis_tolerances[d] = tolerance;
+        square += tolerance * tolerance;
+    }
+    *ball = sqrt(square);
+    return PIA_OK;
+}
+
+pia_status pia_fit_take_tolerances(pia_fit *fit, const double *tolerances)
+{
+    double largest = 0, ball = 0;
+    pia_status status = tolerances != NULL ? take_rows(fit, tolerances, &largest) : PIA_OK;
+    if (status == PIA_OK && fit->options.axis_tolerance_count > 0) status = take_axes(fit, &ball);
+    if (!(fit->options.tolerance > 0)) fit->options.tolerance = largest > 0 ? largest : ball;
+    return status;
+}
+
+/* A row without weight says nothing. */
+double pia_refine_allowed(const pia_fit *fit, pia_index row)
+{
+    if (fit->weights != NULL && fit->weights[row] == 0) return INFINITY;
+    return fit->tolerances != NULL ? fit->tolerances[row] : fit->options.tolerance;
+}
+
+double pia_refine_ratio(const pia_fit *fit, pia_index row, const double *deviation)
+{
+    double square = 0, allowed = pia_refine_allowed(fit, row);
+    for (int d = 0; d < fit->dim; d++) square += deviation[d] * deviation[d];
+    double ratio = sqrt(square) / allowed;
+    for (int d = 0; fit->axis_tolerances != NULL && isfinite(allowed) && d < fit->dim; d++)
+        ratio = fmax(ratio, fabs(deviation[d]) / fit->axis_tolerances[d]);
+    return ratio;
+}
+
+double pia_refine_worst(const pia_fit *fit, pia_index begin, pia_index end)
+{
+    double worst = 0;
+    for (pia_index row = begin; row < end; row++)
+        worst = fmax(worst, pia_refine_ratio(fit, row, fit->iterate.residual + row * fit->dim));
+    return worst;
+}
+
+double pia_refine_worst_of_all(const pia_fit *fit)
+{
+    int alike = fit->tolerances == NULL && fit->axis_tolerances == NULL && fit->weights == NULL && fit->iterate.errors_known;
+    return alike ? fit->iterate.errors.max / fit->options.tolerance : pia_refine_worst(fit, 0, fit->rows);
+}
+
+int pia_fit_keeps_tolerances(pia_iterate *iterate)
+{
+    const pia_fit *fit = iterate->owner;
+    pia_op_residual(iterate->op, iterate->points, &iterate->targets, iterate->residual);
+    return pia_refine_worst(fit, 0, fit->rows) <= 1;
+}
+
+void pia_fit_describe_axes(pia_fit *fit)
+{
+    double error[PIA_MAX_DIM];
+    if (fit->axis_tolerances == NULL || !fit->iterate.errors_known) return;
+    pia_fit_axis_errors(fit, error);
+    for (int d = 0; d < fit->dim; d++)
+        if (error[d] > fit->axis_tolerances[d])
+            pia_note_add(pia_memory_of(fit->context), &fit->outcome, "axis %d of %d deviates by up to %g, and may by %g", d + 1,
+                         fit->dim, error[d], fit->axis_tolerances[d]);
+}
+
+int pia_fit_axis_errors(const pia_fit *fit, double *out)
+{
+    int worst = 0;
+    memset(out, 0, (size_t)fit->dim * sizeof *out);
+    for (pia_index row = 0; row < fit->rows; row++) {
+        const double *r = fit->iterate.residual + row * fit->dim;
+        if (isinf(pia_refine_allowed(fit, row))) continue;
+        for (int d = 0; d < fit->dim; d++) out[d] = fmax(out[d], fabs(r[d]));
+    }
+    for (int d = 1; d < fit->dim; d++)
+        if (out[d] * fit->axis_tolerances[worst] > out[worst] * fit->axis_tolerances[d]) worst = d;
+    return worst;
+}
