@@ -289,7 +289,7 @@ static void progress(walk *w, pia_fit *fit)
     pia_iterate *it = &fit->iterate;
     pia_index size = fit->op->cols * fit->dim;
     pia_index v[9] = {it->iteration,       (pia_index)s->stop, s->best_iteration, s->first_iteration, s->blocked,
-                      s->window_iteration, s->standing,        fit->paused,       fit->watch.idle};
+                      s->window_iteration, s->standing,        fit->paused,       fit->watch.controls};
     double r[12] = {s->seconds,       s->start_error,    s->rate,        s->safe_error,         s->last_error,
                     s->best_error,    it->damping,       it->adjust_max, it->relative_gradient, s->window_error,
                     fit->watch.worst, fit->watch.squares};

@@ -44,7 +44,7 @@ typedef struct pia_robust {
 /* Of growth that refines: whether it still helps. */
 typedef struct pia_watch {
     double worst, squares; /* when it last did */
-    pia_index idle;        /* rounds since */
+    pia_index controls;    /* then; 0: no round yet */
 } pia_watch;
 
 struct pia_fit {

@@ -6,22 +6,26 @@
 
 #include <math.h>
 
-enum { PATIENCE = 4 };
+/* Growth is given up when so many times the control points have not helped. */
+enum { PATIENCE = 6 };
 
-/* Growth helps while the largest ratio or the RMS deviation falls by this factor within PATIENCE rounds. */
-static const double HELPS = 0.97;
+/* It helps when the largest ratio or the RMS deviation falls at least with this power of the number of control points: on rough relief
+ * they fall with the power 1/4 or more, on noise, walls and overhangs hardly. */
+static const double HELPS = 0.1;
 
 int pia_refine_helps(const pia_fit *fit)
 {
-    return fit->kind != PIA_SCATTERED || (fit->op->cols < fit->rows && fit->watch.idle < PATIENCE);
+    const pia_watch *watch = &fit->watch;
+    return fit->kind != PIA_SCATTERED || watch->controls == 0 || fit->op->cols / PATIENCE < watch->controls;
 }
 
 void pia_refine_watch(pia_fit *fit)
 {
     pia_watch *watch = &fit->watch;
     double worst = pia_refine_worst(fit, 0, fit->rows), squares = fit->iterate.errors.sum_squares;
-    int helped = watch->worst == 0 || worst < HELPS * watch->worst || squares < HELPS * HELPS * watch->squares;
-    *watch = helped ? (pia_watch){worst, squares, 0} : (pia_watch){watch->worst, watch->squares, watch->idle + 1};
+    double falls = watch->controls > 0 ? pow((double)fit->op->cols / (double)watch->controls, -HELPS) : INFINITY;
+    if (watch->controls == 0 || worst < falls * watch->worst || squares < falls * falls * watch->squares)
+        *watch = (pia_watch){worst, squares, fit->op->cols};
 }
 
 pia_status pia_refine_move_to_feet(pia_fit *fit, int *better)
@@ -63,8 +67,8 @@ pia_status pia_refine_explain(pia_fit *fit)
             (long long)(row != NULL ? row[overlap.row[0]] : overlap.row[0]),
             (long long)(row != NULL ? row[overlap.row[1]] : overlap.row[1]), overlap.distance, fit->parameter[0][2 * overlap.row[0]],
             fit->parameter[0][2 * overlap.row[0] + 1]);
-    else if (fit->op->cols >= fit->rows)
-        pia_fit_note_add(fit, "there are as many control points as points: more points, or a larger tolerance, are needed");
+    else if (fit->op->cols > fit->rows / 2)
+        pia_fit_note_add(fit, "there are nearly as many control points as points: more points, or a larger tolerance, are needed");
     else
         pia_fit_note_add(fit, "finer knots no longer bring the surface closer: what is left is noise, or relief finer than the points "
                               "are dense; --robust huber lets outliers go");

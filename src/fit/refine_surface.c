@@ -75,16 +75,24 @@ static pia_index split_strips(const pia_fit *fit, int d, const strip *strips, do
     return added;
 }
 
+/* Whether the data can hold so many knots inside in a direction: no more lines than a grid has, no more control points than there are
+ * scattered rows. */
+static int can_hold(const pia_fit *fit, int d, pia_index inside)
+{
+    pia_index lines = inside + (fit->closed[d] ? 1 : fit->degree[d] + 1);
+    return fit->kind == PIA_SCATTERED ? lines <= fit->rows / fit->op->count[1 - d] : lines <= fit->count[d];
+}
+
 static pia_status split(pia_fit *fit, int d, int *possible)
 {
-    pia_index old = pia_refine_inside_count(fit, d), count, lines = fit->kind == PIA_SCATTERED ? fit->rows : fit->count[d];
+    pia_index old = pia_refine_inside_count(fit, d), count;
     double *inside = pia_take(fit->context, 2 * old + 1, sizeof *inside);
     strip *strips = pia_take(fit->context, old + 1, sizeof *strips);
     pia_status status = inside != NULL && strips != NULL ? PIA_OK : PIA_E_MEMORY;
     *possible = 0;
     if (status == PIA_OK) {
         look_at_strips(fit, d, strips);
-        *possible = split_strips(fit, d, strips, inside, &count) > 0 && count + fit->degree[d] + 1 <= lines;
+        *possible = split_strips(fit, d, strips, inside, &count) > 0 && can_hold(fit, d, count);
         if (*possible) status = pia_refine_refit(fit, d, inside, count);
     }
     pia_give(fit->context, inside);

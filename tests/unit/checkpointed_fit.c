@@ -221,6 +221,7 @@ static void refining_a_surface_goes_on_with_the_same_bits(void **state)
                 options.tolerance = noise ? 0.05 : 0.001;
                 pia_report report;
                 check_pauses(&data, &options, &report);
+                assert_true(report.control_count <= SIDE * SIDE);
             }
 }
 
