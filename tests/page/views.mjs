@@ -63,6 +63,30 @@ for (const [file, name, hash] of [['curve.html', 'curve_dark', ''], ['surface.ht
 {
     const page = await browser.report(`${reports}/surface.html`, {width: 390, height: 844});
     browser.check(await page.evaluate(() => document.documentElement.scrollWidth <= innerWidth), 'nothing sticks out on a phone');
+    await page.locator('#canvas').scrollIntoViewIfNeeded();
+    const touch = await page.context().newCDPSession(page), box = await page.locator('#canvas').boundingBox();
+    const fingers = (type, apart) => touch.send('Input.dispatchTouchEvent', {type,
+        touchPoints: apart === null ? [] : [-1, 1].map((side, id) => ({id, x: box.x + box.width / 2 + side * apart / 2, y: box.y + box.height / 2}))});
+    await touch.send('Emulation.setTouchEmulationEnabled', {enabled: true, maxTouchPoints: 2});
+    await fingers('touchStart', 60);
+    for (const apart of [90, 120, 150]) await fingers('touchMove', apart);
+    await fingers('touchEnd', null);
+    await page.waitForTimeout(300);
+    const [, , distance] = (new URLSearchParams((await page.evaluate(() => location.hash)).slice(1)).get('view') ?? '').split(',').map(Number);
+    browser.check(distance < 0.6, `two fingers that part draw the surface nearer: distance ${distance}`);
+    await page.context().close();
+}
+
+// On paper: what is only for the screen is gone, the figure and the numbers are there, on few pages.
+for (const file of ['curve.html', 'surface.html']) {
+    const page = await browser.report(`${reports}/${file}`, {width: 718, height: 1000});
+    await page.emulateMedia({media: 'print'});
+    for (const gone of ['.tools', '.play', '#keys']) browser.check(!await page.locator(gone).first().isVisible(), `${file}: ${gone} is not printed`);
+    for (const kept of ['#verdict', '#canvas canvas', '#reproduce pre']) browser.check(await page.locator(kept).first().isVisible(), `${file}: ${kept} is printed`);
+    browser.check(await page.evaluate(() => document.documentElement.scrollWidth <= innerWidth), `${file}: nothing sticks out of the paper`);
+    const pages = (await page.pdf({format: 'A4', printBackground: true})).toString('latin1').match(/\/Type\s*\/Page\b/g)?.length;
+    browser.check(pages >= 1 && pages <= 5, `${file}: is printed on ${pages} pages`);
+    console.log(`${file}: ${pages} pages on paper`);
     await page.context().close();
 }
 
