@@ -37,10 +37,8 @@ static void gather_conditions(struct fit_job *job, int dim, pia_page_options *pa
     }
     page->met = options->interpolate;
     page->met_count = options->interpolate_count;
-    if (options->corner_count > 0) {
-        page->corners = options->corners;
-        page->corner_count = options->corner_count;
-    }
+    page->corners = job->result[0].recording.corners;
+    page->corner_count = job->result[0].recording.corner_count;
 }
 
 /* The list counts control points as the report does: closed directions without the repeated ones, which a model has. */

@@ -53,21 +53,27 @@ static void add_row(struct recording *recording, struct session *session, const 
                                                              .seconds = report->seconds};
 }
 
-/* The list is the fit's own, and gone after the next edit. */
-static pia_status copy_unsupported(struct recording *recording, struct session *session, pia_fit *fit)
+static const pia_index *copy_of(struct session *session, const pia_index *list, pia_index count)
 {
-    const pia_index *control = NULL;
-    pia_status status = pia_fit_unsupported(fit, &control, &recording->unsupported_count);
-    if (status != PIA_OK || !recording->unsupported_count) return status;
-    size_t bytes = (size_t)recording->unsupported_count * sizeof *control;
-    recording->unsupported = memcpy(session_keep(session, 1, bytes), control, bytes);
+    size_t bytes = (size_t)count * sizeof *list;
+    return count ? memcpy(session_keep(session, 1, bytes), list, bytes) : NULL;
+}
+
+/* The lists are the fit's own, and gone after the next edit. */
+static pia_status copy_lists(struct recording *recording, struct session *session, pia_fit *fit)
+{
+    pia_status status = pia_fit_unsupported(fit, &recording->unsupported, &recording->unsupported_count);
+    if (status == PIA_OK) status = pia_fit_corners(fit, &recording->corners, &recording->corner_count);
+    if (status != PIA_OK) return status;
+    recording->unsupported = copy_of(session, recording->unsupported, recording->unsupported_count);
+    recording->corners = copy_of(session, recording->corners, recording->corner_count);
     return status;
 }
 
 pia_status recording_look(struct recording *recording, struct session *session, pia_fit *fit, const pia_report *report)
 {
     pia_model *model = NULL;
-    pia_status status = report->stop != PIA_STOP_NONE ? copy_unsupported(recording, session, fit) : PIA_OK;
+    pia_status status = report->stop != PIA_STOP_NONE ? copy_lists(recording, session, fit) : PIA_OK;
     int known = recording->row_count && recording->row[recording->row_count - 1].iteration == report->iterations;
     if (status == PIA_OK && !known) status = pia_fit_model(fit, &model);
     if (status != PIA_OK || known) return status;

@@ -16,6 +16,8 @@ struct recording {
     pia_index row_count, row_room;
     const pia_index *unsupported; /* [unsupported_count] of the last look; kept by the session */
     pia_index unsupported_count;
+    const pia_index *corners; /* [corner_count] data rows, as unsupported */
+    pia_index corner_count;
     const double *parameters; /* see fit_parameters; of the end */
 };
 

@@ -357,6 +357,9 @@ pia_status pia_fit_weights(pia_fit *fit, const double **weights, const pia_index
  * over the control points that the report counts; borrowed until the next edit. They stay near the start; fairing bridges them instead.
  */
 pia_status pia_fit_unsupported(pia_fit *fit, const pia_index **control, pia_index *count);
+/* Data rows that are corners of the curve, found or given, rising, without the ends of an open one; borrowed from the fit. NULL and 0
+ * where there are none. */
+pia_status pia_fit_corners(pia_fit *fit, const pia_index **row, pia_index *count);
 /* Row `index` of the trace; returns 0 past the end. */
 int pia_fit_trace(const pia_fit *fit, pia_index index, pia_trace_row *out);
 /* Note (repair, warning, choice made by the library) number `index`; NULL past the end. */
@@ -565,7 +568,8 @@ typedef struct pia_points_info {
     const char *format;       /* what it was read as */
 } pia_points_info;
 
-/* Points of a file; path "-" is standard input, "FILE.h5:/NAME" an array of an HDF5 file. Errors: PIA_E_ARGUMENT, FILE, FORMAT (file:line: ...), UNAVAILABLE, MEMORY, SIZE. */
+/* Points of a file; path "-" is standard input, "FILE.h5:/NAME" an array of an HDF5 file. Errors: PIA_E_ARGUMENT, FILE, FORMAT
+ * (file:line: ...), UNAVAILABLE, MEMORY, SIZE. */
 pia_status pia_points_read(pia_context *context, const char *path, const pia_points_options *options, pia_points **out);
 /* Fills *out; its arrays live as long as `points`. */
 void pia_points_get_info(const pia_points *points, pia_points_info *out);

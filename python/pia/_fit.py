@@ -198,6 +198,11 @@ class Fit(_pia.Fit):
         """Control points that the data do not hold, a list of row-major indices."""
         return self._unsupported()
 
+    @property
+    def corners(self):
+        """Rows of the points that are corners, found or given, a list."""
+        return self._corners()
+
     # ---- editing
 
     def set(self, name, value):

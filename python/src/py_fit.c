@@ -269,6 +269,17 @@ static PyObject *unsupported(PyObject *self, PyObject *nothing)
     return count > 0 ? rows_list(control, count) : PyList_New(0);
 }
 
+static PyObject *corners(PyObject *self, PyObject *nothing)
+{
+    (void)nothing;
+    fit_object *f = ready(self);
+    if (f == NULL) return NULL;
+    const pia_index *row;
+    pia_index count;
+    if (worker_check(f->worker, pia_fit_corners(f->fit, &row, &count)) < 0) return NULL;
+    return count > 0 ? rows_list(row, count) : PyList_New(0);
+}
+
 static PyObject *residuals(PyObject *self, PyObject *nothing)
 {
     (void)nothing;
@@ -482,6 +493,7 @@ static PyMethodDef methods[] = {
     {"_trace", trace, METH_NOARGS, NULL},
     {"_parameters", parameters, METH_NOARGS, NULL},
     {"_weights", weights, METH_NOARGS, NULL},
+    {"_corners", corners, METH_NOARGS, NULL},
     {"_unsupported", unsupported, METH_NOARGS, NULL},
     {"_residuals", residuals, METH_NOARGS, NULL},
     {"_set", set, METH_VARARGS, NULL},

@@ -102,6 +102,8 @@ struct pia_fit {
     int refining;                    /* knots are still to be found for a tolerance */
     pia_index round;                 /* rounds of growing, sparing, correcting */
     pia_index *corner, corner_count; /* rows used that are corners, rising, without the ends */
+    pia_index *corner_row;           /* [corner_rows] data rows of corners, rising, and where a closed curve was opened */
+    pia_index corner_rows;           /* 0: none */
     int pinned;                      /* 1: the ends of the curve are the first and the last row */
     pia_index refined_until;         /* of a refinement: the iteration at which it pauses */
     int paused;                      /* 1: it did, with work left */

@@ -154,7 +154,10 @@ static pia_status keep_corners(pia_fit *fit, const unsigned char *corner, pia_in
     pia_index rows = fit->rows, count = 0;
     for (pia_index row = 0; row < rows; row++) count += corner[row];
     fit->corner = pia_take(fit->context, count, sizeof *fit->corner);
-    if (fit->corner == NULL) return PIA_E_MEMORY;
+    fit->corner_row = pia_take(fit->context, count, sizeof *fit->corner_row);
+    if (fit->corner == NULL || fit->corner_row == NULL) return PIA_E_MEMORY;
+    for (pia_index row = 0; row < rows; row++)
+        if (corner[row]) fit->corner_row[fit->corner_rows++] = fit->row != NULL ? fit->row[row] : row;
     pia_fit_note_add(fit, "%lld corners %s", (long long)count, fit->options.corner_count == PIA_AUTO ? "found" : "given");
     pia_index by = fit->closed[0] ? first : 0;
     for (pia_index i = fit->closed[0]; i < rows; i++)
@@ -180,4 +183,12 @@ pia_status pia_fit_take_corners(pia_fit *fit)
     if (status == PIA_OK && first != NULL) status = keep_corners(fit, corner, first - corner);
     pia_give(fit->context, corner);
     return status;
+}
+
+pia_status pia_fit_corners(pia_fit *fit, const pia_index **row, pia_index *count)
+{
+    if (row == NULL || count == NULL) return pia_fail(fit->context, PIA_E_ARGUMENT, "row or count is NULL");
+    *row = fit->corner_row;
+    *count = fit->corner_rows;
+    return PIA_OK;
 }

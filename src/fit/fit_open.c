@@ -244,6 +244,7 @@ void pia_fit_close(pia_fit *fit)
     pia_give(context, fit->all_parameters);
     pia_give(context, fit->row);
     pia_give(context, fit->corner);
+    pia_give(context, fit->corner_row);
     pia_give(context, fit->dropped);
     pia_give(context, fit->weights);
     pia_fit_robust_close(fit);

@@ -412,6 +412,29 @@ static void corners_are_sharp_whether_found_or_given(void **state)
     pia_context_destroy(context);
 }
 
+static void corners_are_told_by_their_rows(void **state)
+{
+    (void)state;
+    static const pia_index given[] = {0, 81};
+    pia_context *context;
+    assert_ok(NULL, pia_context_create(NULL, &context));
+    for (int k = 0; k < 3; k++) {
+        problem p = letter_d(0.03);
+        pia_fit *fit;
+        const pia_index *row;
+        pia_index count;
+        p.options.corners = given;
+        p.options.corner_count = k == 0 ? 0 : k == 1 ? 2 : PIA_AUTO;
+        assert_ok(context, pia_fit_open(context, &p.data, &p.options, &fit));
+        assert_ok(context, pia_fit_corners(fit, &row, &count));
+        assert_int_equal(count, k == 0 ? 0 : 2);
+        for (pia_index i = 0; i < count; i++) assert_int_equal(row[i], given[i]);
+        pia_fit_close(fit);
+        free(p.points);
+    }
+    pia_context_destroy(context);
+}
+
 static void a_corner_that_does_not_exist_is_refused(void **state)
 {
     (void)state;
@@ -628,6 +651,7 @@ int main(void)
         cmocka_unit_test(surfaces_keep_the_tolerances_of_axes),
         cmocka_unit_test(a_letter_needs_few_control_points),
         cmocka_unit_test(corners_are_sharp_whether_found_or_given),
+        cmocka_unit_test(corners_are_told_by_their_rows),
         cmocka_unit_test(a_corner_that_does_not_exist_is_refused),
         cmocka_unit_test(what_cannot_be_had_is_said),
         cmocka_unit_test(the_noise_of_points_suggests_a_tolerance),

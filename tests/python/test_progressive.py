@@ -110,6 +110,12 @@ class Edits(Case):
         self.near(self.fit.model.control, free, 1e-9)
         self.assertRaises(pia.Error, self.fit.release, 99)
 
+    def test_corners_are_told_by_their_rows(self):
+        corner = [[i, abs(i - 20)] for i in range(41)]
+        with pia.Fit(corner, tolerance=1e-6, corners="auto") as fit:
+            self.assertEqual(fit.corners, [20])
+        self.assertEqual(self.fit.corners, [])
+
     def test_joins_come_and_go(self):
         free = self.fit.model(0.0)
         other = pia.fit_curve([[x / 9 - 1, 0.3] for x in range(10)])

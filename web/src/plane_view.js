@@ -329,11 +329,11 @@ export class PlaneView {
     }
 }
 
-/** Corners: rows that were named, and inside knots where a curve need not be smooth. */
+/** Corners: the rows that the fit of the first figure took for some; of others, inside knots where a curve need not be smooth. */
 export function cornersOf(model) {
     const out = [...model.head.corners];
-    for (const {spline, surface} of model.figures) {
-        if (surface) continue;
+    for (const [f, {spline, surface}] of model.figures.entries()) {
+        if (surface || (f === 0 && out.length)) continue;
         const [p] = spline.degree, knots = spline.knots[0];
         for (let i = p + 1; i < spline.control[0]; i++)
             if (p > 1 && knots[i] === knots[i + p - 1] && knots[i] > knots[i - 1]) out.push(Array.from(spline.curve(knots[i], 0)[0]));
