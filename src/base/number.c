@@ -1,11 +1,11 @@
 #include "number.h"
 
 #include "number_exact.h"
+#include "number_parts.h"
 #include "powers_of_five.h"
 
 #include <math.h>
 #include <stdint.h>
-#include <stdio.h>
 #include <string.h>
 
 /* Reading: mantissa and exponent are exact doubles in the common case (W. Clinger, "How to read floating point numbers accurately",
@@ -122,30 +122,20 @@ static double assemble(uint64_t mantissa, int64_t biased_exponent)
     return value;
 }
 
-/* a * b to 128 bits as {high, low}, from 32-bit halves. */
-static void multiply_wide(uint64_t a, uint64_t b, uint64_t product[2])
-{
-    uint64_t a0 = (uint32_t)a, a1 = a >> 32, b0 = (uint32_t)b, b1 = b >> 32;
-    uint64_t low = a0 * b0, middle = a1 * b0 + (low >> 32), other = a0 * b1 + (uint32_t)middle;
-    product[0] = a1 * b1 + (middle >> 32) + (other >> 32);
-    product[1] = other << 32 | (uint32_t)low;
-}
-
 /* mantissa * 5^power to 128 bits; the second half of the power is needed only when the first leaves the rounding open. */
 static void multiply_by_power(uint64_t mantissa, int64_t power, uint64_t product[2])
 {
     const uint64_t *five = pia_power_of_five[power - PIA_FIRST_POWER];
-    multiply_wide(mantissa, five[0], product);
+    pia_number_multiply(mantissa, five[0], product);
     if ((product[0] & 0x1ff) != 0x1ff) return;
     uint64_t second[2];
-    multiply_wide(mantissa, five[1], second);
+    pia_number_multiply(mantissa, five[1], second);
     product[1] += second[0];
     product[0] += product[1] < second[0];
 }
 
-/* The double nearest to mantissa * 10^power, ties to even (Lemire 2021, algorithm 1; Mushtak and Lemire 2023 prove that 64 bits of
- * mantissa never need more). */
-static double nearest_double(uint64_t mantissa, int64_t power)
+/* Lemire 2021, algorithm 1; Mushtak and Lemire 2023 prove that 64 bits of mantissa never need more. */
+double pia_number_nearest(uint64_t mantissa, int64_t power)
 {
     if (mantissa == 0 || power < PIA_FIRST_POWER) return 0;
     if (power > PIA_LAST_POWER) return INFINITY;
@@ -179,8 +169,8 @@ static double to_double(const decimal *number)
     int64_t exponent = number->mantissa_exponent;
     if (mantissa <= (uint64_t)1 << 53 && exponent >= -22 && exponent <= 22 && !number->truncated)
         return exponent < 0 ? (double)mantissa / ten_to[-exponent] : (double)mantissa * ten_to[exponent];
-    double value = nearest_double(mantissa, exponent);
-    if (!number->truncated || value == nearest_double(mantissa + 1, exponent)) return value;
+    double value = pia_number_nearest(mantissa, exponent);
+    if (!number->truncated || value == pia_number_nearest(mantissa + 1, exponent)) return value;
     return pia_number_exact(number->digits, number->end, number->exponent, value);
 }
 
@@ -215,46 +205,4 @@ const char *pia_number_parse(const char *begin, const char *end, double *value)
         return NULL;
     *value = negative ? -magnitude : magnitude;
     return after;
-}
-
-/* Replaces the decimal point of the locale, whatever bytes it has, by '.'; returns the new length. */
-static int remove_locale(char *text)
-{
-    char *to = text;
-    for (const char *from = text; *from != '\0'; from++) {
-        int plain = is_digit(*from) || *from == '-' || *from == '+' || *from == 'e';
-        if (plain)
-            *to++ = *from;
-        else if (to == text || to[-1] != '.')
-            *to++ = '.';
-    }
-    *to = '\0';
-    return (int)(to - text);
-}
-
-static int format_whole(int64_t value, char *text)
-{
-    char digits[24];
-    int count = 0, length = 0;
-    for (uint64_t rest = value < 0 ? -(uint64_t)value : (uint64_t)value; count == 0 || rest > 0; rest /= 10)
-        digits[count++] = (char)('0' + rest % 10);
-    if (value < 0) text[length++] = '-';
-    while (count > 0) text[length++] = digits[--count];
-    text[length] = '\0';
-    return length;
-}
-
-int pia_number_format(double value, char text[PIA_NUMBER_SIZE])
-{
-    if (!isfinite(value)) return snprintf(text, PIA_NUMBER_SIZE, "%s", isnan(value) ? "nan" : value > 0 ? "inf" : "-inf");
-    if (fabs(value) < 1e15 && value == (double)(int64_t)value && !(value == 0 && signbit(value)))
-        return format_whole((int64_t)value, text);
-    int length = 0;
-    for (int digits = 15; digits <= 17; digits++) {
-        snprintf(text, PIA_NUMBER_SIZE, "%.*g", digits, value);
-        length = remove_locale(text);
-        double back;
-        if (pia_number_parse(text, text + length, &back) != NULL && back == value) break;
-    }
-    return length;
 }

@@ -279,6 +279,44 @@ static void writes_short_numbers_shortly(void **state)
     }
 }
 
+/* The C library's, which rounds exactly. */
+static void check_format(double value)
+{
+    char text[PIA_NUMBER_SIZE], expected[64];
+    int digits = 14, length = pia_number_format(value, text);
+    do snprintf(expected, sizeof expected, "%.*g", ++digits, value);
+    while (strtod(expected, NULL) != value);
+    if (strcmp(text, expected) != 0) print_error("%a gave %s, expected %s\n", value, text, expected);
+    assert_string_equal(text, expected);
+    assert_int_equal(length, strlen(expected));
+}
+
+static void writes_as_the_c_library_does(void **state)
+{
+    (void)state;
+    uint64_t random = 88172645463325252u;
+    for (int i = 0; i < 300000; i++) {
+        uint64_t bits = next_random(&random);
+        double value = i % 4 == 0   ? double_of(bits)                                                  /* anything */
+                       : i % 4 == 1 ? (double)(int64_t)bits * 0x1p-63                                  /* long */
+                       : i % 4 == 2 ? (double)(bits % 100000) / 1024 * pow(10, (int)(bits >> 40) % 20) /* ties */
+                                    : (double)(int64_t)(bits >> 24) / 1e6;                             /* short */
+        if (isfinite(value) && (fabs(value) >= 1e15 || value != floor(value))) check_format(value);
+    }
+    for (int power = -323; power <= 308; power++) { /* ends of the decades, where a digit is carried */
+        char text[16];
+        snprintf(text, sizeof text, "1e%d", power);
+        double value = strtod(text, NULL);
+        if (value >= 1 && value < 1e15) continue;
+        check_format(value);
+        check_format(-nextafter(value, 0) * (power > -323));
+        check_format(nextafter(value, 1));
+    }
+    check_format(DBL_MIN);
+    check_format(DBL_MAX);
+    check_format(DBL_TRUE_MIN);
+}
+
 static void no_locale_changes_reading_or_writing(void **state)
 {
     (void)state;
@@ -310,6 +348,7 @@ int main(void)
         cmocka_unit_test(stops_at_the_end_it_was_given),
         cmocka_unit_test(writes_numbers_that_read_back_as_the_same_bits),
         cmocka_unit_test(writes_short_numbers_shortly),
+        cmocka_unit_test(writes_as_the_c_library_does),
         cmocka_unit_test(no_locale_changes_reading_or_writing),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
