@@ -6,7 +6,7 @@
 
 #define INLINE static inline __attribute__((always_inline))
 
-enum { GRAIN = 1 << 16 };
+enum { GRAIN = 1 << 16, MAX_CHUNKS = 64 };
 
 INLINE double distance(const double *a, const double *b, int dim, double scale)
 {
@@ -51,7 +51,7 @@ typedef struct accumulation {
     pia_interval_rule *rule;
     double *parameters;
     pia_index intervals, chunks;
-    double *before; /* [chunks] total of a chunk, then the sum of those before it */
+    double before[MAX_CHUNKS]; /* [chunks] total of a chunk, then the sum of those before it */
     double total;
 } accumulation;
 
@@ -127,16 +127,14 @@ pia_status pia_interval_accumulate(pia_context *context, const double *points, p
                                    pia_interval_rule *rule, double *parameters)
 {
     pia_interval_source source = {points, count, dim, closed, 1};
-    accumulation a = {&source, rule, parameters, count - 1, pia_chunk_count(count - 1, GRAIN), NULL, 0};
-    a.before = pia_take(context, a.chunks, sizeof *a.before);
-    if (a.before == NULL) return pia_take_status(context, a.chunks, sizeof *a.before);
+    accumulation a = {.source = &source, .rule = rule, .parameters = parameters, .intervals = count - 1};
+    a.chunks = pia_chunk_count(count - 1, GRAIN);
+    if (a.chunks > MAX_CHUNKS) a.chunks = MAX_CHUNKS;
     pia_status status = sum_safely(context, &a, &source);
-    if (status == PIA_OK) {
-        parameters[0] = 0;
-        pia_for_each(context, a.chunks, scale_chunk, &a);
-    }
-    pia_give(context, a.before);
-    return status;
+    if (status != PIA_OK) return status;
+    parameters[0] = 0;
+    pia_for_each(context, a.chunks, scale_chunk, &a);
+    return PIA_OK;
 }
 
 pia_status pia_interval_check_distinct(pia_context *context, const double *points, pia_index count, int dim)

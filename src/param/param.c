@@ -1,5 +1,8 @@
 #include "param.h"
 
+#include "kernel.h"
+#include "rooms.h"
+
 #include <string.h>
 
 const pia_parametrization *pia_param_find(const char *name)
@@ -10,31 +13,44 @@ const pia_parametrization *pia_param_find(const char *name)
     return NULL;
 }
 
-enum { PANEL = 8 }; /* lines copied together where they are not contiguous: a cache line is read once */
+/* PANEL: lines copied together where they are not contiguous: a cache line is read once. GRAIN: numbers a task should get at least. */
+enum { PANEL = 8, GRAIN = 32768, MAX_CHUNKS = 64 };
 
 /* One direction of a grid: lines of `count` points, `step` doubles apart. */
 typedef struct direction {
     const pia_parametrization *rule;
     pia_index count, lines, step, line_step;
     int dim, degree, closed;
+} direction;
+
+/* What some of its lines add up to. */
+typedef struct shares {
+    double *share;   /* [count] sum of the shares of step i -> i + 1 */
+    double *covered; /* [count] lines that cover it, besides the whole ones */
+    pia_index whole; /* lines without holes that count */
+    pia_index used;  /* lines that count */
+} shares;
+
+/* A line at hand. */
+typedef struct desk {
+    const direction *d;
+    shares *sum;
     double *panel;      /* [PANEL x count x dim] */
     double *points;     /* [count x dim] the present points of a line */
     double *parameters; /* [count] theirs */
     pia_index *index;   /* [count] where on the line they are */
-    double *share;      /* [count] sum of the shares of step i -> i + 1 */
-    double *covered;    /* [count] lines that cover it, besides the whole ones */
-    pia_index whole;    /* lines without holes that count */
-    pia_index used;     /* lines that count */
-} direction;
+} desk;
 
-static const double *line_of(const direction *d, const double *points, pia_index line)
+/* Lines come in order, from a multiple of PANEL on. */
+static const double *line_of(const desk *k, const double *points, pia_index line)
 {
+    const direction *d = k->d;
     if (d->step == d->dim) return points + line * d->line_step;
     for (pia_index i = 0; line % PANEL == 0 && i < d->count; i++)
-        for (pia_index k = 0; k < PANEL && line + k < d->lines; k++)
+        for (pia_index m = 0; m < PANEL && line + m < d->lines; m++)
             for (int c = 0; c < d->dim; c++)
-                d->panel[(k * d->count + i) * d->dim + c] = points[(line + k) * d->line_step + i * d->step + c];
-    return d->panel + line % PANEL * d->count * d->dim;
+                k->panel[(m * d->count + i) * d->dim + c] = points[(line + m) * d->line_step + i * d->step + c];
+    return k->panel + line % PANEL * d->count * d->dim;
 }
 
 static int has_nan(const double *values, pia_index count)
@@ -45,107 +61,161 @@ static int has_nan(const double *values, pia_index count)
 }
 
 /* Keeps the points of a line without NaN; returns how many those are. */
-static pia_index keep_present(direction *d, const double *line)
+static pia_index keep_present(desk *k, const double *line)
 {
+    const direction *d = k->d;
     pia_index present = 0;
     for (pia_index i = 0; i < d->count; i++) {
         const double *point = line + i * d->dim;
         if (has_nan(point, d->dim)) continue;
-        memcpy(d->points + present * d->dim, point, (size_t)d->dim * sizeof *point);
-        d->index[present++] = i;
+        memcpy(k->points + present * d->dim, point, (size_t)d->dim * sizeof *point);
+        k->index[present++] = i;
     }
     return present;
 }
 
 /* `whole` is the parameter length from one present point to the next one, `steps` grid steps away. */
-static void spread(direction *d, pia_index from, pia_index steps, double whole)
+static void spread(desk *k, pia_index from, pia_index steps, double whole)
 {
-    for (pia_index k = 0; k < steps; k++) {
-        pia_index i = (from + k) % d->count;
-        d->share[i] += whole / (double)steps;
-        d->covered[i] += 1;
+    for (pia_index m = 0; m < steps; m++) {
+        pia_index i = (from + m) % k->d->count;
+        k->sum->share[i] += whole / (double)steps;
+        k->sum->covered[i] += 1;
     }
 }
 
-static void add_line(direction *d, pia_index present)
+static void add_line(desk *k, pia_index present)
 {
-    const double *t = d->parameters;
-    pia_index last = d->index[present - 1];
-    double part = d->closed ? 1 : (double)(last - d->index[0]) / (double)(d->count - 1);
-    for (pia_index k = 0; k + 1 < present; k++) spread(d, d->index[k], d->index[k + 1] - d->index[k], (t[k + 1] - t[k]) * part);
-    if (d->closed) spread(d, last, d->count - last + d->index[0], 1 - t[present - 1]);
+    const double *t = k->parameters;
+    const pia_index *index = k->index;
+    pia_index last = index[present - 1];
+    double part = k->d->closed ? 1 : (double)(last - index[0]) / (double)(k->d->count - 1);
+    for (pia_index m = 0; m + 1 < present; m++) spread(k, index[m], index[m + 1] - index[m], (t[m + 1] - t[m]) * part);
+    if (k->d->closed) spread(k, last, k->d->count - last + index[0], 1 - t[present - 1]);
 }
 
-static void add_whole_line(direction *d)
+static void add_whole_line(desk *k)
 {
-    const double *t = d->parameters;
-    for (pia_index i = 0; i + 1 < d->count; i++) d->share[i] += t[i + 1] - t[i];
-    d->share[d->count - 1] += 1 - t[d->count - 1];
-    d->whole++;
+    const double *t = k->parameters;
+    double *share = k->sum->share;
+    pia_index count = k->d->count;
+    for (pia_index i = 0; i + 1 < count; i++) share[i] += t[i + 1] - t[i];
+    share[count - 1] += 1 - t[count - 1];
+    k->sum->whole++;
+}
+
+/* Lines that have no parameters do not count; what the rule says of them goes to a context of their own. */
+static void take_line(desk *k, const double *line, pia_context *own)
+{
+    const direction *d = k->d;
+    int holes = has_nan(line, d->count * d->dim);
+    pia_index present = holes ? keep_present(k, line) : d->count;
+    if (present < 2) return;
+    if (d->rule->compute(own, holes ? k->points : line, present, d->dim, d->degree, d->closed, k->parameters) != PIA_OK) return;
+    if (holes)
+        add_line(k, present);
+    else
+        add_whole_line(k);
+    k->sum->used++;
+}
+
+/* ---- lines side by side: chunks of whole panels, whose sums are added in order ---- */
+
+typedef struct work {
+    const direction *d;
+    const double *points;
+    pia_index chunks;
+    pia_rooms rooms;
+    shares part[MAX_CHUNKS];
+} work;
+
+static pia_index panels(const direction *d)
+{
+    return (d->lines + PANEL - 1) / PANEL;
+}
+
+static desk sit_down(const work *w, shares *sum, void *room)
+{
+    pia_index size = w->d->count * w->d->dim;
+    desk k = {.d = w->d, .sum = sum, .parameters = room};
+    k.index = (pia_index *)(k.parameters + w->d->count);
+    k.points = (double *)(k.index + w->d->count);
+    k.panel = k.points + size;
+    return k;
+}
+
+static void take_chunk(void *argument, pia_index chunk)
+{
+    work *w = argument;
+    const direction *d = w->d;
+    pia_context own = {.threads = 1, .kernel = &pia_kernel_serial};
+    void *room = pia_rooms_take(&w->rooms);
+    desk k = sit_down(w, &w->part[chunk], room);
+    pia_index end = pia_chunk_begin(panels(d), w->chunks, chunk + 1) * PANEL;
+    for (pia_index i = 0; i < d->count; i++) k.sum->share[i] = k.sum->covered[i] = 0;
+    for (pia_index j = pia_chunk_begin(panels(d), w->chunks, chunk) * PANEL; j < end && j < d->lines; j++)
+        take_line(&k, line_of(&k, w->points, j), &own);
+    pia_rooms_leave(&w->rooms, room);
+}
+
+/* Into the first part. */
+static void join(work *w)
+{
+    shares *all = &w->part[0];
+    for (pia_index c = 1; c < w->chunks; c++) {
+        const shares *part = &w->part[c];
+        for (pia_index i = 0; i < w->d->count; i++) {
+            all->share[i] += part->share[i];
+            all->covered[i] += part->covered[i];
+        }
+        all->whole += part->whole;
+        all->used += part->used;
+    }
 }
 
 /* Mean shares, summed and scaled to [0, 1]. */
-static void finish(const direction *d, double *out)
+static void finish(const direction *d, const shares *all, double *out)
 {
     double sum = 0;
     for (pia_index i = 0; i < d->count; i++) {
-        double lines = d->covered[i] + (double)d->whole;
-        double mean = lines > 0 ? d->share[i] / lines : 1 / (double)(d->count - 1);
+        double lines = all->covered[i] + (double)all->whole;
+        double mean = lines > 0 ? all->share[i] / lines : 1 / (double)(d->count - 1);
         out[i] = sum;
         if (d->closed || i + 1 < d->count) sum += mean;
     }
     for (pia_index i = 0; i < d->count; i++) out[i] /= sum;
 }
 
-static pia_status average(pia_context *context, direction *d, const double *points, double *out)
+static pia_status average(pia_context *context, work *w, double *sums, double *out)
 {
-    for (pia_index j = 0; j < d->lines; j++) {
-        const double *line = line_of(d, points, j);
-        int holes = has_nan(line, d->count * d->dim);
-        pia_index present = holes ? keep_present(d, line) : d->count;
-        if (present < 2) continue;
-        pia_status status = d->rule->compute(context, holes ? d->points : line, present, d->dim, d->degree, d->closed, d->parameters);
-        if (status == PIA_E_DATA) continue;
-        if (status != PIA_OK) return status;
-        if (holes)
-            add_line(d, present);
-        else
-            add_whole_line(d);
-        d->used++;
+    for (pia_index c = 0; c < w->chunks; c++) {
+        double *own = sums + 2 * c * w->d->count;
+        w->part[c] = (shares){.share = own, .covered = own + w->d->count};
     }
-    if (d->used == 0) return pia_fail(context, PIA_E_DATA, "no line of the grid has two different points: nothing to parametrize");
-    finish(d, out);
+    pia_for_each(context, w->chunks, take_chunk, w);
+    join(w);
+    if (w->part[0].used == 0)
+        return pia_fail(context, PIA_E_DATA, "no line of the grid has two different points: nothing to parametrize");
+    finish(w->d, &w->part[0], out);
     return PIA_OK;
 }
 
-static int take_work(pia_context *context, direction *d)
+static pia_status parametrize(pia_context *context, const direction *d, const double *points, double *out)
 {
-    pia_index values, panel;
-    if (!pia_multiply(d->count, d->dim, &values) || !pia_multiply(values, PANEL, &panel)) return 0;
-    d->panel = pia_take(context, d->step == d->dim ? 0 : panel, sizeof *d->panel);
-    d->points = pia_take(context, values, sizeof *d->points);
-    d->parameters = pia_take(context, d->count, sizeof *d->parameters);
-    d->index = pia_take(context, d->count, sizeof *d->index);
-    d->share = pia_take_zero(context, d->count, sizeof *d->share);
-    d->covered = pia_take_zero(context, d->count, sizeof *d->covered);
-    return d->panel != NULL && d->points != NULL && d->parameters != NULL && d->index != NULL && d->share != NULL && d->covered != NULL;
-}
-
-static void give_work(pia_context *context, direction *d)
-{
-    pia_give(context, d->panel);
-    pia_give(context, d->points);
-    pia_give(context, d->parameters);
-    pia_give(context, d->index);
-    pia_give(context, d->share);
-    pia_give(context, d->covered);
-}
-
-static pia_status parametrize(pia_context *context, direction d, const double *points, double *out)
-{
-    if (d.count < 2) return pia_fail(context, PIA_E_SHAPE, "a grid needs at least 2 rows and 2 columns");
-    pia_status status = take_work(context, &d) ? average(context, &d, points, out) : PIA_E_MEMORY;
-    give_work(context, &d);
+    work w = {.d = d, .points = points};
+    pia_index room, sizes = d->dim * (pia_index)((d->step == d->dim ? 0 : PANEL) + 1) + 2;
+    if (d->count < 2) return pia_fail(context, PIA_E_SHAPE, "a grid needs at least 2 rows and 2 columns");
+    if (!pia_multiply(d->count, sizes * (pia_index)sizeof(double), &room))
+        return pia_fail(context, PIA_E_SIZE, "lines of %lld points do not fit in 64 bits", (long long)d->count);
+    w.chunks = pia_chunk_count(d->lines * d->count * d->dim, GRAIN);
+    if (w.chunks > panels(d)) w.chunks = panels(d);
+    if (w.chunks > MAX_CHUNKS) w.chunks = MAX_CHUNKS;
+    pia_status status = pia_rooms_open(context, w.chunks, room, &w.rooms);
+    if (status != PIA_OK) return status;
+    double *sums = pia_take(context, 2 * w.chunks, (size_t)d->count * sizeof *sums);
+    status = sums != NULL ? average(context, &w, sums, out) : pia_take_status(context, 2 * w.chunks, (size_t)d->count * sizeof *sums);
+    pia_give(context, sums);
+    pia_rooms_close(context, &w.rooms);
     return status;
 }
 
@@ -159,6 +229,6 @@ pia_status pia_param_grid(pia_context *context, const pia_parametrization *rule,
     down.closed = closed[0];
     across.degree = degree[1];
     across.closed = closed[1];
-    pia_status status = parametrize(context, down, points, u);
-    return status == PIA_OK ? parametrize(context, across, points, v) : status;
+    pia_status status = parametrize(context, &down, points, u);
+    return status == PIA_OK ? parametrize(context, &across, points, v) : status;
 }

@@ -8,8 +8,8 @@ typedef struct pia_parametrization {
     const char *name, *title, *reference, *detail;
     /* parameters [count] of ordered points [count x dim], count >= 2, non-decreasing from exactly 0 to exactly 1. Equal neighbours get
      * equal parameters where the rule says so. closed: the period ends at 1 where point 0 would come again; the last parameter is then
-     * below 1 (the points do not repeat the first one). degree is for the universal rule. Errors: PIA_E_DATA when all points are
-     * equal, PIA_E_MEMORY. */
+     * below 1 (the points do not repeat the first one). degree is for the universal rule. Allocates nothing. Errors: PIA_E_DATA
+     * when all points are equal. */
     pia_status (*compute)(pia_context *context, const double *points, pia_index count, int dim, int degree, int closed,
                           double *parameters);
 } pia_parametrization;
