@@ -51,6 +51,7 @@ struct pia_fit {
     pia_context *context;
     pia_fit_options options; /* texts and arrays of it are valid during open only */
     int borrowed;            /* points are the caller's until the fit is closed */
+    int careful;             /* 1: data are checked before they are used, and control points are numbers before the first step */
 
     pia_kind kind;
     int directions;
@@ -147,6 +148,8 @@ pia_status pia_fit_place(pia_fit *fit);
 pia_status pia_fit_operate(pia_fit *fit);
 /* Whether the operator's interpolating curve is found in one step, from data to control points, and nobody asks for what was before. */
 int pia_fit_is_one_step(const pia_fit *fit);
+/* Whether such a fit, before it has an operator, leaves it to that step to look at the data, on knots that were given. */
+int pia_fit_is_trusting(const pia_fit *fit);
 /* Operator, normal form and iterate for the current knots, in place of the ones before; control points undefined. */
 pia_status pia_fit_assemble(pia_fit *fit);
 /* The same when rows, weights or parameters have changed: control points, frozen ones included, stay; the method begins anew. */
@@ -189,8 +192,9 @@ pia_status pia_fit_keep(pia_fit *fit, pia_fit_kept *kept);
 pia_status pia_fit_take_back(pia_fit *fit, const pia_fit_kept *kept, pia_status (*assemble)(pia_fit *fit));
 void pia_fit_keep_drop(pia_fit *fit, pia_fit_kept *kept);
 
-/* Opens without a copy of the data where the method allows: data outlives the fit. */
-pia_status pia_fit_borrow(pia_context *context, const pia_data *data, const pia_fit_options *options, pia_fit **out);
+/* Opens without a copy of the data where the method allows: data outlives the fit. Unless it is to be careful, the start may be left
+ * out, and the check of the data left to the solve, which then fails with the points still unseen where it cannot go on. */
+pia_status pia_fit_borrow(pia_context *context, const pia_data *data, const pia_fit_options *options, int careful, pia_fit **out);
 
 /* pia_fit_report without a pass over the data: errors are NAN, and their row -1, where they are not known. */
 void pia_fit_tell(pia_fit *fit, pia_report *report);

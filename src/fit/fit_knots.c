@@ -302,8 +302,7 @@ pia_status pia_fit_operate(pia_fit *fit)
         status = pia_op_curve_open(fit->context, &fit->line[0], weights, fit->dim, &fit->op);
     else
         status = pia_op_grid_open(fit->context, &fit->line[0], &fit->line[1], weights, fit->dim, &fit->op);
-    int solve_finds_out = status == PIA_OK && pia_fit_is_one_step(fit);
-    for (int d = 0; d < fit->directions && status == PIA_OK && fit->placement == NULL && !solve_finds_out; d++)
+    for (int d = 0; d < fit->directions && status == PIA_OK && fit->placement == NULL && !pia_fit_is_trusting(fit); d++)
         status = check_held(fit, d);
     return status;
 }

@@ -126,23 +126,28 @@ static void order_by_row(const pia_fit *fit, double *out)
 
 /* Parameters are kept with the model where they cannot be computed again from the points, given and corrected ones, unless they are so
  * many that a copy would weigh on memory. */
+static pia_status attach_parameters(pia_fit *fit, pia_summary *summary)
+{
+    const double *parameters;
+    pia_index count;
+    pia_status status = pia_fit_parameters(fit, &parameters, &count, NULL);
+    if (status != PIA_OK || (fit->parametrization != NULL && !fit->parameters_moved) || count > MOST_KEPT) return status;
+    summary->parameters = pia_take(fit->context, count, sizeof *parameters);
+    if (summary->parameters == NULL) return pia_take_status(fit->context, count, sizeof *parameters);
+    summary->parameter_count = count;
+    pia_copy(fit->context, summary->parameters, parameters, count);
+    order_by_row(fit, summary->parameters);
+    return PIA_OK;
+}
+
 static pia_status attach_summary(pia_fit *fit, const pia_report *report, pia_model *model)
 {
     const pia_memory *memory = pia_memory_of(fit->context);
     pia_summary summary = {.report = *report, .notes = fit->notes, .dropped = fit->dropped, .dropped_count = fit->dropped_count};
-    const double *parameters;
-    pia_index count;
-    pia_status status = pia_fit_parameters(fit, &parameters, &count, NULL);
-    if (status != PIA_OK) return status;
-    if ((fit->parametrization == NULL || fit->parameters_moved) && count <= MOST_KEPT) {
-        summary.parameters = (double *)(uintptr_t)parameters; /* only to be copied */
-        summary.parameter_count = count;
-    }
     model->summary = pia_summary_copy(memory, &summary);
     if (model->summary == NULL) return pia_fail(fit->context, PIA_E_MEMORY, "out of memory for the summary of the fit");
-    order_by_row(fit, model->summary->parameters);
     pia_notes_copy(memory, &model->summary->notes, &fit->outcome);
-    return PIA_OK;
+    return attach_parameters(fit, model->summary);
 }
 
 /* The iterate and the knots become the model's own. */

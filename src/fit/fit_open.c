@@ -5,6 +5,7 @@
 #include "options.h"
 #include "refine.h"
 #include "sequence.h"
+#include "survey.h"
 #include "windows.h"
 
 #include <math.h>
@@ -80,12 +81,34 @@ static void drop_assembly(pia_fit *fit)
     *iterate = (pia_iterate){.context = fit->context, .iteration = iterate->iteration};
 }
 
-int pia_fit_is_one_step(const pia_fit *fit)
+/* Whether the limit is all that is asked for. */
+static int is_plain(const pia_fit *fit)
 {
     const pia_fit_options *o = &fit->options;
     int asked = o->tolerance > 0 || o->time_limit > 0 || o->trace_every > 0 || o->progress != NULL || o->max_iterations == 0;
-    return fit->borrowed && fit->square && (fit->solve.method->needs & PIA_IS_FINITE) != 0 && !asked && o->start == NULL &&
-           o->freeze_count == 0 && o->constraint_count == 0 && o->join_count == 0 && pia_windows_suit(fit->op);
+    return fit->borrowed && !fit->careful && fit->square && (fit->solve.method->needs & PIA_IS_FINITE) != 0 && !asked &&
+           o->start == NULL && o->freeze_count == 0 && o->constraint_count == 0 && o->join_count == 0;
+}
+
+int pia_fit_is_one_step(const pia_fit *fit)
+{
+    return is_plain(fit) && pia_windows_suit(fit->op);
+}
+
+int pia_fit_is_trusting(const pia_fit *fit)
+{
+    return fit->unseen && is_plain(fit) && fit->options.knots[0] != NULL && fit->solve.limiter == NULL &&
+           pia_windows_suit_rows(fit->rows, fit->degree[0]);
+}
+
+/* The step of a trusting fit has seen the points. Its control points count from nowhere. */
+static pia_status look(void *owner, const pia_survey *survey)
+{
+    pia_fit *fit = owner;
+    pia_status status = pia_fit_look(fit, survey);
+    memset(fit->origin, 0, sizeof fit->origin);
+    fit->iterate.extent = fit->extent;
+    return status;
 }
 
 static pia_status take_iterate(pia_fit *fit)
@@ -98,6 +121,7 @@ static pia_status take_iterate(pia_fit *fit)
     iterate->constraint_error = iterate->relative_gradient = NAN;
     int blank = pia_fit_is_one_step(fit); /* control points need not start as a copy of the data, nor count from their middle */
     if (blank) memset(fit->origin, 0, sizeof fit->origin);
+    if (blank && fit->unseen) iterate->look = look;
     if (!blank) iterate->points = pia_take(fit->context, size, sizeof(double));
     iterate->adjust = pia_take(fit->context, size, sizeof(double));
     if ((!blank && iterate->points == NULL) || iterate->adjust == NULL) return PIA_E_MEMORY;
@@ -174,7 +198,8 @@ static pia_status open_stages(pia_fit *fit, const pia_data *data)
     for (int d = 0; d < 2 && fit->options.start != NULL; d++) fit->options.closed[d] |= fit->options.start->periodic[d];
     if (status == PIA_OK) status = pia_fit_take_data(fit, data);
     if (status == PIA_OK) status = pia_fit_choose(fit);
-    if (status == PIA_OK && (fit->square || fit->refining || pia_fit_by_line(fit))) status = pia_fit_see(fit);
+    if (status == PIA_OK && (fit->square || fit->refining || pia_fit_by_line(fit)) && !pia_fit_is_trusting(fit))
+        status = pia_fit_see(fit);
     if (status == PIA_OK) status = pia_fit_parametrize(fit, data);
     if (status == PIA_OK) status = pia_fit_place(fit);
     if (status == PIA_OK) status = pia_fit_assemble(fit);
@@ -190,7 +215,8 @@ static pia_status open_stages(pia_fit *fit, const pia_data *data)
     return pia_solve_begin(&fit->solve, &fit->method_values, &fit->limiter_values);
 }
 
-static pia_status open_fit(pia_context *context, const pia_data *data, const pia_fit_options *options, int borrowed, pia_fit **out)
+static pia_status open_fit(pia_context *context, const pia_data *data, const pia_fit_options *options, int borrowed, int careful,
+                           pia_fit **out)
 {
     if (context == NULL || data == NULL || out == NULL) return pia_fail(context, PIA_E_ARGUMENT, "context, data or out is NULL");
     double start = pia_seconds();
@@ -202,6 +228,7 @@ static pia_status open_fit(pia_context *context, const pia_data *data, const pia
     if (fit == NULL) return PIA_E_MEMORY;
     fit->context = context;
     fit->borrowed = borrowed;
+    fit->careful = careful;
     pia_fit_options_init(&fit->options);
     status = pia_options_read(context, "pia_fit_options", &fit->options, sizeof fit->options, options);
     if (status == PIA_OK) status = open_stages(fit, &used);
@@ -216,12 +243,12 @@ static pia_status open_fit(pia_context *context, const pia_data *data, const pia
 
 pia_status pia_fit_open(pia_context *context, const pia_data *data, const pia_fit_options *options, pia_fit **out)
 {
-    return open_fit(context, data, options, 0, out);
+    return open_fit(context, data, options, 0, 1, out);
 }
 
-pia_status pia_fit_borrow(pia_context *context, const pia_data *data, const pia_fit_options *options, pia_fit **out)
+pia_status pia_fit_borrow(pia_context *context, const pia_data *data, const pia_fit_options *options, int careful, pia_fit **out)
 {
-    return open_fit(context, data, options, 1, out);
+    return open_fit(context, data, options, 1, careful, out);
 }
 
 void pia_fit_close(pia_fit *fit)

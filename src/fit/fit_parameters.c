@@ -204,6 +204,6 @@ pia_status pia_fit_parametrize(pia_fit *fit, const pia_data *data)
         if (status == PIA_OK) status = compute(fit);
     }
     for (int d = 0; status == PIA_OK && apart && fit->kind != PIA_SCATTERED && d < fit->directions; d++)
-        if (!rising[d]) status = separate(fit, d);
+        if (!rising[d] && !fit->unseen) status = separate(fit, d);
     return status;
 }

@@ -86,18 +86,28 @@ static pia_status take_adjust(pia_iterate *iterate)
     return iterate->adjust != NULL ? PIA_OK : PIA_E_MEMORY;
 }
 
+/* What a step told of itself. */
+static void take_errors(pia_iterate *iterate, direct *d, const pia_step_errors *errors)
+{
+    iterate->errors = errors->before;
+    iterate->next_errors = errors->after;
+    iterate->errors_known = iterate->next_errors_known = 1;
+    iterate->adjust_max = errors->moved;
+    d->left = errors->before.max / iterate->extent;
+    d->steps++;
+}
+
 static pia_status step_by_windows(pia_iterate *iterate, direct *d, int *done)
 {
     pia_step_errors errors;
-    pia_status status = pia_windows_step(iterate->op, iterate->points, &iterate->targets, iterate->adjust, &errors, done);
-    if (status != PIA_OK || !*done) return status;
-    iterate->errors = errors.before;
-    iterate->next_errors = errors.after;
-    iterate->errors_known = iterate->next_errors_known = 1;
-    iterate->adjust_max = errors.moved;
-    d->left = errors.before.max / iterate->extent;
-    d->steps++;
-    return PIA_OK;
+    pia_survey survey;
+    pia_status status = pia_windows_step(iterate->op, iterate->points, &iterate->targets, iterate->adjust,
+                                         iterate->look != NULL ? &survey : NULL, &errors, done);
+    if (status == PIA_OK && iterate->look != NULL)
+        status =
+            *done ? iterate->look(iterate->owner, &survey) : pia_fail(iterate->context, PIA_E_DATA, "the points are to be seen first");
+    if (status == PIA_OK && *done) take_errors(iterate, d, &errors);
+    return status;
 }
 
 static pia_status step(pia_iterate *iterate, void *state)

@@ -36,7 +36,9 @@ typedef struct pia_iterate {
     int square;               /* 1: interpolation, each unknown owns a row; 0: least squares */
     pia_status (*project)(struct pia_iterate *iterate); /* moves the parameters to the closest points of the current iterate; NULL where
                                                            not offered */
-    void *owner;                                        /* of project */
+    pia_status (*look)(void *owner, const struct pia_survey *survey); /* takes what a step has seen of points that nobody looked at
+                                                                         before, and sets extent; NULL: they are known */
+    void *owner;                                                      /* of project and look */
 } pia_iterate;
 
 /* R and errors of the current P (one pass over the data); nothing when they are known. */

@@ -47,14 +47,6 @@ PIA_INLINE int pia_lanes_all(pia_lane_masks mask)
     return (mask[0] & mask[1] & mask[2] & mask[3]) != 0;
 }
 
-/* history [count x width] of the rows before, nearest first: takes one more. */
-PIA_INLINE void pia_lanes_remember(pia_lanes *history, int count, int width, const pia_lanes *row)
-{
-    for (int r = count - 1; r >= 1; r--)
-        for (int k = 0; k < width; k++) history[r * width + k] = history[(r - 1) * width + k];
-    for (int k = 0; k < width; k++) history[k] = row[k];
-}
-
 /* Basis values at t as pia_basis_values gives them, but with one division for each pair of neighbours: their quotients add up to 1,
  * and are exactly 0 and 1 at a knot. knot[k] is the knot at span - degree + 1 + k, k < 2 degree. */
 PIA_INLINE void pia_lanes_basis(const pia_lanes *knot, int degree, pia_lanes t, pia_lanes *value)
@@ -77,32 +69,6 @@ PIA_INLINE void pia_lanes_inverses(const pia_lanes *knot, int degree, pia_lanes 
 {
     for (int d = 1; d <= degree; inverse += d++)
         for (int r = 0; r < d; r++) inverse[r] = 1 / (knot[degree + r] - knot[degree + r - d]);
-}
-
-/* The same for the next span, whose last knot is `next`: one division a degree. */
-PIA_INLINE void pia_lanes_advance(pia_lanes *knot, int degree, pia_lanes next, pia_lanes *inverse)
-{
-    for (int k = 0; k + 1 < 2 * degree; k++) knot[k] = knot[k + 1];
-    knot[2 * degree - 1] = next;
-    for (int d = 1; d <= degree; inverse += d++) {
-        for (int r = 0; r + 1 < d; r++) inverse[r] = inverse[r + 1];
-        inverse[d - 1] = 1 / (knot[degree + d - 1] - knot[degree - 1]);
-    }
-}
-
-/* Basis values from the inverses; exactly 0 where they should be at the left knot. */
-PIA_INLINE void pia_lanes_quick_basis(const pia_lanes *knot, const pia_lanes *inverse, int degree, pia_lanes t, pia_lanes *value)
-{
-    value[0] = (pia_lanes){1, 1, 1, 1};
-    for (int d = 1; d <= degree; inverse += d++) {
-        pia_lanes carried = {0};
-        for (int r = 0; r < d; r++) {
-            pia_lanes part = value[r] * ((t - knot[degree + r - d]) * inverse[r]);
-            value[r] = carried + (value[r] - part);
-            carried = part;
-        }
-        value[d] = carried;
-    }
 }
 
 /* Basis values from the inverses, as sums of products of factors that are not negative: small values keep all their digits. */

@@ -77,7 +77,7 @@ static pia_status interpolate_long_curve(pia_context *context, void *user)
     if (status != PIA_OK) return status;
     status = pia_op_curve_open(context, &line, NULL, 1, &op);
     if (status == PIA_OK) {
-        status = pia_windows_step(op, NULL, &targets, x, &errors, &done);
+        status = pia_windows_step(op, NULL, &targets, x, NULL, &errors, &done);
         pia_op_close(op);
     }
     pia_collocation_close(context, &line);

@@ -1,6 +1,7 @@
 /* Interpolation of long curves, a window at a time. */
+#include "clones.h"
 #include "problems.h"
-#include "windows.h"
+#include "windows_group.h"
 
 enum { ROWS = 8192 + 37, MAX_COMPONENTS = 4 };
 
@@ -109,7 +110,7 @@ static void check_step(int degree, int dim, double spread, placement kind)
     pia_step_errors errors;
     pia_index row;
     int done = 0;
-    assert_ok(c->context, pia_windows_step(c->op, NULL, &c->targets, x, &errors, &done));
+    assert_ok(c->context, pia_windows_step(c->op, NULL, &c->targets, x, NULL, &errors, &done));
     assert_int_equal(done, 1);
     assert_true(largest_error(c, x, &row) < 1e-12);
     assert_true(errors.after.max < 1e-12);
@@ -151,10 +152,10 @@ static void curves_far_from_the_origin_lose_nothing(void **state)
         double *x = take_control(c), *same = take_control(c);
         pia_step_errors errors;
         int done;
-        assert_ok(c->context, pia_windows_step(c->op, NULL, &c->targets, x, &errors, &done));
+        assert_ok(c->context, pia_windows_step(c->op, NULL, &c->targets, x, NULL, &errors, &done));
         for (pia_index i = 0; i < ROWS * 3; i++) c->points[i] += 1 << 20;
         for (int d = 0; d < 3; d++) c->origin[d] += 1 << 20;
-        assert_ok(c->context, pia_windows_step(c->op, NULL, &c->targets, same, &errors, &done));
+        assert_ok(c->context, pia_windows_step(c->op, NULL, &c->targets, same, NULL, &errors, &done));
         assert_true(errors.after.max < 1e-14);
         for (pia_index i = 0; i < ROWS * 3; i++) assert_near(x[i], same[i], 1e-9); /* the points themselves are as coarse as that */
         free(x), free(same);
@@ -172,8 +173,8 @@ static void any_control_points_move_to_the_same_curve(void **state)
     pia_index row;
     int done;
     for (pia_index i = 0; i < ROWS * 3; i++) start[i] = problem_random(&seed);
-    assert_ok(c->context, pia_windows_step(c->op, NULL, &c->targets, same, &errors, &done));
-    assert_ok(c->context, pia_windows_step(c->op, start, &c->targets, x, &errors, &done));
+    assert_ok(c->context, pia_windows_step(c->op, NULL, &c->targets, same, NULL, &errors, &done));
+    assert_ok(c->context, pia_windows_step(c->op, start, &c->targets, x, NULL, &errors, &done));
     assert_near(errors.before.max, largest_error(c, start, &row), 1e-13);
     assert_int_equal(errors.before.max_row, row);
     for (pia_index i = 0; i < ROWS * 3; i++) assert_near(x[i], same[i], 1e-12);
@@ -191,7 +192,7 @@ static void errors_are_told_as_they_are_on_uneven_data(void **state)
         pia_step_errors errors;
         pia_index row;
         int done;
-        assert_ok(c->context, pia_windows_step(c->op, NULL, &c->targets, x, &errors, &done));
+        assert_ok(c->context, pia_windows_step(c->op, NULL, &c->targets, x, NULL, &errors, &done));
         assert_int_equal(done, 1);
         for (pia_index i = 0; i < ROWS * 2; i++) largest = fmax(largest, fabs(x[i]));
         assert_near(errors.after.max, largest_error(c, x, &row), 1e-14 * largest + 1e-6 * errors.after.max);
@@ -211,7 +212,7 @@ static void a_vanishing_pivot_is_told(void **state)
             pia_step_errors errors;
             int done = 1;
             for (pia_index i = at[k]; i < ROWS && c->parameters[i] < t; i++) c->parameters[i] = t;
-            assert_ok(c->context, pia_windows_step(c->op, NULL, &c->targets, x, &errors, &done));
+            assert_ok(c->context, pia_windows_step(c->op, NULL, &c->targets, x, NULL, &errors, &done));
             assert_int_equal(done, 0);
             free(x);
             close_curve(c);
@@ -229,7 +230,7 @@ static void the_number_of_threads_changes_no_bit(void **state)
             curve *c = open_curve(degree, 3, 10, AVERAGED, threads[k]);
             double *x = take_control(c);
             int done;
-            assert_ok(c->context, pia_windows_step(c->op, NULL, &c->targets, x, &errors, &done));
+            assert_ok(c->context, pia_windows_step(c->op, NULL, &c->targets, x, NULL, &errors, &done));
             assert_int_equal(done, 1);
             if (first == NULL) {
                 first = x;
@@ -245,6 +246,51 @@ static void the_number_of_threads_changes_no_bit(void **state)
         }
         free(first);
     }
+}
+
+static void wider_vectors_change_no_bit(void **state)
+{
+    (void)state;
+    if (!pia_has_wide()) return;
+    for (int degree = 1; degree <= 7; degree++)
+        for (int kind = AVERAGED; kind <= AT_PARAMETERS; kind++) {
+            curve *c = open_curve(degree, 1 + degree % MAX_COMPONENTS, kind == AVERAGED ? 10 : 3, (placement)kind, 2);
+            double *x = take_control(c), *same = take_control(c);
+            pia_step_errors errors, same_errors;
+            int done;
+            assert_ok(c->context, pia_windows_step_with(pia_windows_solve_by_four, c->op, NULL, &c->targets, x, NULL, &errors, &done));
+            assert_int_equal(done, 1);
+            assert_ok(c->context,
+                      pia_windows_step_with(pia_windows_solve_by_eight, c->op, NULL, &c->targets, same, NULL, &same_errors, &done));
+            assert_int_equal(done, 1);
+            assert_memory_equal(x, same, (size_t)(ROWS * c->dim) * sizeof *x);
+            assert_true(errors.before.sum_squares == same_errors.before.sum_squares && errors.moved == same_errors.moved);
+            assert_true(errors.after.sum_squares == same_errors.after.sum_squares && errors.after.max == same_errors.after.max);
+            assert_int_equal(errors.after.max_row, same_errors.after.max_row);
+            free(x), free(same);
+            close_curve(c);
+        }
+}
+
+static void what_the_step_sees_is_told(void **state)
+{
+    (void)state;
+    curve *c = open_curve(3, 2, 3, AT_PARAMETERS, 2);
+    double *x = take_control(c), low = INFINITY, high = -INFINITY;
+    pia_step_errors errors;
+    pia_survey survey;
+    int done;
+    for (pia_index i = 0; i < ROWS; i++) {
+        low = fmin(low, c->points[2 * i + 1]);
+        high = fmax(high, c->points[2 * i + 1]);
+    }
+    assert_ok(c->context, pia_windows_step(c->op, NULL, &c->targets, x, &survey, &errors, &done));
+    assert_true(survey.finite && survey.ordered && survey.low[1] == low && survey.high[1] == high);
+    c->points[2 * (ROWS - 1)] = INFINITY;
+    assert_ok(c->context, pia_windows_step(c->op, NULL, &c->targets, x, &survey, &errors, &done));
+    assert_true(!done || !survey.finite);
+    free(x);
+    close_curve(c);
 }
 
 static void only_long_open_curves_are_suited(void **state)
@@ -263,10 +309,16 @@ static void only_long_open_curves_are_suited(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(the_targets_move_to_the_interpolating_curve), cmocka_unit_test(rows_one_a_span_are_no_different),
-        cmocka_unit_test(curves_far_from_the_origin_lose_nothing),     cmocka_unit_test(any_control_points_move_to_the_same_curve),
-        cmocka_unit_test(errors_are_told_as_they_are_on_uneven_data),  cmocka_unit_test(a_vanishing_pivot_is_told),
-        cmocka_unit_test(the_number_of_threads_changes_no_bit),        cmocka_unit_test(only_long_open_curves_are_suited),
+        cmocka_unit_test(the_targets_move_to_the_interpolating_curve),
+        cmocka_unit_test(rows_one_a_span_are_no_different),
+        cmocka_unit_test(curves_far_from_the_origin_lose_nothing),
+        cmocka_unit_test(any_control_points_move_to_the_same_curve),
+        cmocka_unit_test(errors_are_told_as_they_are_on_uneven_data),
+        cmocka_unit_test(a_vanishing_pivot_is_told),
+        cmocka_unit_test(the_number_of_threads_changes_no_bit),
+        cmocka_unit_test(wider_vectors_change_no_bit),
+        cmocka_unit_test(what_the_step_sees_is_told),
+        cmocka_unit_test(only_long_open_curves_are_suited),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,0 +1,153 @@
+/* Long curves on given parameters and knots are checked by the solve alone; what is wrong with them is told as with any other. */
+#include "problems.h"
+
+enum { ROWS = 9000, DEGREE = 3 };
+
+typedef struct curve {
+    double points[2 * ROWS], parameters[ROWS], knots[ROWS + DEGREE + 1];
+    pia_data data;
+    pia_fit_options options;
+    pia_context *context;
+} curve;
+
+static curve *make(void)
+{
+    curve *c = malloc(sizeof *c);
+    assert_non_null(c);
+    assert_ok(NULL, pia_context_create(NULL, &c->context));
+    for (int i = 0; i < ROWS; i++) {
+        c->parameters[i] = i;
+        c->points[2 * i] = cos(1e-3 * i);
+        c->points[2 * i + 1] = sin(3e-3 * i);
+    }
+    for (int k = 0; k <= DEGREE; k++) {
+        c->knots[k] = 0;
+        c->knots[ROWS + k] = ROWS - 1;
+    }
+    for (int k = DEGREE + 1; k < ROWS; k++) c->knots[k] = k - 2;
+    pia_data_init(&c->data);
+    pia_fit_options_init(&c->options);
+    c->data.points = c->points;
+    c->data.parameters = c->parameters;
+    c->data.count[0] = ROWS;
+    c->data.dim = 2;
+    c->options.method = "direct";
+    c->options.knots[0] = c->knots;
+    c->options.knot_count[0] = ROWS + DEGREE + 1;
+    return c;
+}
+
+static void drop(curve *c)
+{
+    pia_context_destroy(c->context);
+    free(c);
+}
+
+static void check_refused(curve *c, const char *message)
+{
+    pia_model *model = NULL;
+    assert_status(c->context, pia_fit_data(c->context, &c->data, &c->options, &model, NULL), PIA_E_DATA);
+    assert_null(model);
+    assert_string_equal(pia_message(c->context), message);
+    drop(c);
+}
+
+static void a_good_curve_meets_its_points(void **state)
+{
+    (void)state;
+    curve *c = make();
+    pia_model *model;
+    pia_report report = {.struct_size = sizeof report};
+    double point[2];
+    assert_ok(c->context, pia_fit_data(c->context, &c->data, &c->options, &model, &report));
+    assert_true(report.max_error < 1e-15 && report.start_error > 1e-7 && report.point_count == ROWS);
+    const double t = 4321;
+    assert_ok(c->context, pia_model_eval(c->context, model, &t, 1, 0, point));
+    assert_near(point[1], sin(3e-3 * 4321), 1e-14);
+    pia_model_destroy(model);
+    drop(c);
+}
+
+static void the_row_that_is_no_point_is_named(void **state)
+{
+    (void)state;
+    curve *c = make();
+    c->points[2 * 7654 + 1] = NAN;
+    check_refused(c, "row 7654: component 1 is nan, not a finite number; drop such rows (--skip-invalid)");
+    c = make();
+    c->points[2 * 8999] = INFINITY;
+    check_refused(c, "row 8999: component 0 is inf, not a finite number; drop such rows (--skip-invalid)");
+}
+
+static void parameters_that_do_not_rise_are_named(void **state)
+{
+    (void)state;
+    curve *c = make();
+    c->parameters[5000] = 4998.5;
+    check_refused(c, "parameter 5000 is 4998.5, less than 4999 before it; sort the rows by parameter");
+    c = make();
+    c->parameters[10] = NAN;
+    check_refused(c, "parameter 10 is nan; parameters are finite");
+    c = make();
+    c->parameters[5000] = 4999;
+    check_refused(c, "parameters 4999 and 5000 are equal (4999) but their points differ; least squares (--control) can fit them");
+}
+
+static void rows_that_cannot_be_met_are_named(void **state)
+{
+    (void)state;
+    curve *c = make();
+    for (int i = 3000; i < 3004; i++) c->parameters[i] = 3003.5 + 0.01 * i - 30;
+    check_refused(c, "knots and parameters do not belong together: control point 3000 of direction u has no hold on its data point "
+                     "(Schoenberg-Whitney); place knots by --knots average");
+}
+
+static void equal_points_cannot_be_met(void **state)
+{
+    (void)state;
+    curve *c = make();
+    for (int i = 0; i < 2 * ROWS; i++) c->points[i] = 1;
+    check_refused(c, "all 9000 points are equal; there is no curve to fit");
+}
+
+static int at_once(void *user)
+{
+    (void)user;
+    return 1;
+}
+
+static void an_interrupted_fit_is_where_it_began(void **state)
+{
+    (void)state;
+    curve *c = make();
+    pia_model *model;
+    pia_report report = {.struct_size = sizeof report};
+    pia_context_options options;
+    double *control = malloc(sizeof c->points);
+    assert_non_null(control);
+    pia_context_destroy(c->context);
+    pia_context_options_init(&options);
+    options.interrupted = at_once;
+    assert_ok(NULL, pia_context_create(&options, &c->context));
+    assert_ok(c->context, pia_fit_data(c->context, &c->data, &c->options, &model, &report));
+    assert_int_equal(report.stop, PIA_STOP_CANCELLED);
+    assert_true(report.max_error > 1e-7);
+    pia_model_control(model, control, NULL);
+    for (int i = 0; i < 2 * ROWS; i++) assert_near(control[i], c->points[i], 1e-15);
+    free(control);
+    pia_model_destroy(model);
+    drop(c);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(a_good_curve_meets_its_points),
+        cmocka_unit_test(the_row_that_is_no_point_is_named),
+        cmocka_unit_test(parameters_that_do_not_rise_are_named),
+        cmocka_unit_test(rows_that_cannot_be_met_are_named),
+        cmocka_unit_test(equal_points_cannot_be_met),
+        cmocka_unit_test(an_interrupted_fit_is_where_it_began),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
