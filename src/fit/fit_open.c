@@ -5,6 +5,7 @@
 #include "options.h"
 #include "refine.h"
 #include "sequence.h"
+#include "square_grid.h"
 #include "survey.h"
 #include "windows.h"
 
@@ -92,7 +93,7 @@ static int is_plain(const pia_fit *fit)
 
 int pia_fit_is_one_step(const pia_fit *fit)
 {
-    return is_plain(fit) && pia_windows_suit(fit->op);
+    return is_plain(fit) && (pia_windows_suit(fit->op) || pia_square_grid_suits(fit->op, fit->dim));
 }
 
 int pia_fit_is_trusting(const pia_fit *fit)

@@ -185,6 +185,8 @@ PIA_CLONES static void solve_sides(const pia_band_lu *lu, double *b)
 {
     if (lu->lower == 1 && lu->upper == 1)
         solve(lu, 1, 1, b, PIA_BAND_SIDES);
+    else if (lu->lower == 2 && lu->upper == 2)
+        solve(lu, 2, 2, b, PIA_BAND_SIDES);
     else
         solve(lu, lu->lower, lu->upper, b, PIA_BAND_SIDES);
 }

@@ -3,6 +3,7 @@
 #include "constraint.h"
 #include "method.h"
 #include "square.h"
+#include "square_grid.h"
 #include "windows.h"
 
 #include <math.h>
@@ -110,6 +111,14 @@ static pia_status step_by_windows(pia_iterate *iterate, direct *d, int *done)
     return status;
 }
 
+static pia_status step_on_grid(pia_iterate *iterate, direct *d)
+{
+    pia_step_errors errors;
+    pia_status status = pia_square_grid_step(iterate->op, &iterate->targets, iterate->adjust, &errors);
+    if (status == PIA_OK) take_errors(iterate, d, &errors);
+    return status;
+}
+
 static pia_status step(pia_iterate *iterate, void *state)
 {
     direct *d = state;
@@ -118,6 +127,7 @@ static pia_status step(pia_iterate *iterate, void *state)
     if (status == PIA_OK && iterate->square && d->steps == 0 && pia_windows_suit(iterate->op))
         status = step_by_windows(iterate, d, &done);
     if (status != PIA_OK || done) return status;
+    if (iterate->square && iterate->points == NULL && pia_square_grid_suits(iterate->op, iterate->dim)) return step_on_grid(iterate, d);
     status = take_points(iterate);
     if (status == PIA_OK) status = adjust(iterate, state);
     if (status != PIA_OK || iterate->finished) return status;

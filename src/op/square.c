@@ -2,52 +2,13 @@
 
 #include "band.h"
 #include "dense.h"
+#include "equations.h"
 #include "kernel.h"
 
 #include <string.h>
 
-/* The equations of one direction: row c belongs to unknown c. */
-typedef struct equations {
-    pia_index n;
-    int width;
-    pia_index *first; /* [n] first column, modulo n when it wraps */
-    double *entry;    /* [n x width] */
-    int wraps;
-} equations;
-
-static void equations_clear(pia_context *context, equations *e)
-{
-    pia_give(context, e->first);
-    pia_give(context, e->entry);
-}
-
-/* The equation of a frozen unknown becomes d = 0. */
-static void freeze_equation(equations *e, pia_index c)
-{
-    for (int k = 0; k < e->width; k++) e->entry[c * e->width + k] = (e->first[c] + k) % e->n == c;
-}
-
-static pia_status equations_open(pia_context *context, const pia_collocation *c, const unsigned char *frozen, equations *out)
-{
-    equations e = {.n = c->unknowns, .width = c->degree + 1};
-    e.first = pia_take(context, e.n, sizeof *e.first);
-    e.entry = pia_take(context, e.n, (size_t)e.width * sizeof *e.entry);
-    if (e.first == NULL || e.entry == NULL) {
-        equations_clear(context, &e);
-        return PIA_E_MEMORY;
-    }
-    pia_index span = c->degree;
-    for (pia_index row = 0; row < c->rows; row++) {
-        span = pia_collocation_advance(c, row, span);
-        if (!pia_collocation_entries(c, row, span, &e.first[row], e.entry + row * e.width)) e.wraps = 1;
-        if (frozen != NULL && frozen[row]) freeze_equation(&e, row);
-    }
-    *out = e;
-    return PIA_OK;
-}
-
 /* Where few unknowns wrap around, the matrix is dense anyway. */
-static pia_status solve_dense(pia_context *context, const equations *e, double *r, int width)
+static pia_status solve_dense(pia_context *context, const pia_equations *e, double *r, int width)
 {
     double *a = pia_take_zero(context, e->n * e->n, sizeof *a);
     pia_index *pivot = pia_take(context, e->n, sizeof *pivot);
@@ -68,7 +29,7 @@ static pia_status solve_dense(pia_context *context, const equations *e, double *
 /* A cyclic band as a band with a border: the last `degree` unknowns are kept apart, the rest no longer wraps.
  *   [A11 A12] [x1]   [r1]        S = A22 - A21 A11^-1 A12
  *   [A21 A22] [x2] = [r2]        x2 = S^-1 (r2 - A21 A11^-1 r1),  x1 = A11^-1 r1 - (A11^-1 A12) x2 */
-static pia_status solve_bordered(pia_context *context, const equations *e, double *r, int width)
+static pia_status solve_bordered(pia_context *context, const pia_equations *e, double *r, int width)
 {
     int q = e->width - 1, band = 2 * q + 1;
     pia_index n = e->n, m = n - q;
@@ -182,7 +143,7 @@ static void solve_chunk(void *work, pia_index chunk)
 }
 
 /* One factorisation for all of them. */
-static pia_status solve_banded(pia_context *context, const equations *e, double *r, pia_index before, pia_index after)
+static pia_status solve_banded(pia_context *context, const pia_equations *e, double *r, pia_index before, pia_index after)
 {
     pia_band_lu lu;
     pia_status status = pia_band_lu_factor(context, e->entry, e->first, e->n, e->width, &lu);
@@ -199,7 +160,7 @@ static pia_status solve_banded(pia_context *context, const equations *e, double 
     return status;
 }
 
-static pia_status solve_wrapping(pia_context *context, const equations *e, double *r, pia_index before, pia_index after)
+static pia_status solve_wrapping(pia_context *context, const pia_equations *e, double *r, pia_index before, pia_index after)
 {
     pia_status status = PIA_OK;
     int dense = e->n <= 2 * (pia_index)e->width;
@@ -216,11 +177,11 @@ static pia_status solve_direction(pia_context *context, const pia_collocation *c
     stream rows = {c, frozen};
     if (before == 1 && after <= PIA_MAX_DIM && c->map != PIA_MAP_CYCLIC)
         return pia_band_lu_stream(context, make_rows, &rows, c->unknowns, c->degree + 1, r, (int)after);
-    equations e;
-    pia_status status = equations_open(context, c, frozen, &e);
+    pia_equations e;
+    pia_status status = pia_equations_open(context, c, frozen, &e);
     if (status != PIA_OK) return status;
     status = e.wraps ? solve_wrapping(context, &e, r, before, after) : solve_banded(context, &e, r, before, after);
-    equations_clear(context, &e);
+    pia_equations_clear(context, &e);
     return status;
 }
 

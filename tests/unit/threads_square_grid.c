@@ -1,0 +1,205 @@
+/* Interpolation of grids, many lines at a time: the block solve, and the step from points to control points. */
+#include "problems.h"
+#include "square.h"
+#include "square_grid.h"
+
+enum { MOST = 90, MOST_DIM = 9 };
+
+typedef struct surface {
+    pia_context *context;
+    int degree[2], dim;
+    pia_index count[2];
+    double t[2][MOST], knots[2][MOST + PIA_MAX_DEGREE + 1], points[MOST * MOST * MOST_DIM], x[MOST * MOST * MOST_DIM],
+        values[MOST * MOST * MOST_DIM], origin[MOST_DIM];
+    pia_collocation line[2];
+    pia_targets targets;
+    pia_op *op;
+} surface;
+
+static void place(surface *s, int d, uint64_t *seed)
+{
+    pia_index n = s->count[d];
+    int degree = s->degree[d];
+    for (pia_index i = 0; i < n; i++) s->t[d][i] = ((double)i + 0.4 * (i > 0 && i + 1 < n) * problem_random(seed)) / (double)(n - 1);
+    for (int k = 0; k <= degree; k++) {
+        s->knots[d][k] = 0;
+        s->knots[d][n + k] = 1;
+    }
+    for (pia_index i = 1; i < n - degree; i++) {
+        double sum = 0;
+        for (int k = 0; k < degree; k++) sum += s->t[d][i + k];
+        s->knots[d][degree + i] = sum / degree;
+    }
+}
+
+static surface *open_surface(int degree, pia_index u, pia_index v, int dim, int threads)
+{
+    surface *s = malloc(sizeof *s);
+    assert_non_null(s);
+    pia_context_options options;
+    pia_context_options_init(&options);
+    options.threads = threads;
+    assert_ok(NULL, pia_context_create(&options, &s->context));
+    s->degree[0] = s->degree[1] = degree;
+    s->dim = dim;
+    s->count[0] = u;
+    s->count[1] = v;
+    uint64_t seed = (uint64_t)(degree + 10 * dim);
+    for (int d = 0; d < 2; d++) {
+        place(s, d, &seed);
+        assert_ok(s->context, pia_collocation_open(s->context, degree, PIA_MAP_IDENTITY, 0, s->knots[d], s->count[d], s->t[d],
+                                                   s->count[d], PIA_STORE_VALUES, &s->line[d]));
+    }
+    for (pia_index i = 0; i < u * v * dim; i++) s->points[i] = 1000 + problem_random(&seed);
+    for (int d = 0; d < dim; d++) s->origin[d] = 0;
+    s->targets = (pia_targets){s->points, s->origin, dim};
+    assert_ok(s->context, pia_op_grid_open(s->context, &s->line[0], &s->line[1], NULL, dim, &s->op));
+    return s;
+}
+
+static void close_surface(surface *s)
+{
+    pia_op_close(s->op);
+    for (int d = 0; d < 2; d++) pia_collocation_close(s->context, &s->line[d]);
+    pia_context_destroy(s->context);
+    free(s);
+}
+
+static pia_index size_of(const surface *s)
+{
+    return s->count[0] * s->count[1] * s->dim;
+}
+
+/* The largest |points - A x| over the points, and its row. */
+static double largest_error(surface *s, const double *x, pia_index *row)
+{
+    double worst = -1;
+    pia_op_apply(s->op, x, s->dim, s->values);
+    for (pia_index i = 0; i < s->count[0] * s->count[1]; i++) {
+        double square = 0;
+        for (int d = 0; d < s->dim; d++) square += pow(s->points[i * s->dim + d] - s->values[i * s->dim + d], 2);
+        if (square <= worst) continue;
+        worst = square;
+        *row = i;
+    }
+    return sqrt(worst);
+}
+
+static const pia_index SIZES[][2] = {{8, 8}, {33, 9}, {9, 33}, {64, 32}, {37, 85}, {83, 35}};
+enum { SIZE_COUNT = sizeof SIZES / sizeof *SIZES };
+
+static void solving_lines_side_by_side_undoes_the_operator(void **state)
+{
+    (void)state;
+    for (int degree = 1; degree <= 5; degree++)
+        for (int k = 0; k < SIZE_COUNT; k++)
+            for (int dim = 1; dim <= 3; dim++) {
+                surface *s = open_surface(degree, SIZES[k][0], SIZES[k][1], dim, 2);
+                pia_op_apply(s->op, s->points, dim, s->values);
+                assert_ok(s->context, pia_square_solve(s->op, s->values, dim));
+                for (pia_index i = 0; i < size_of(s); i++) assert_near(s->values[i], s->points[i], 1e-9);
+                close_surface(s);
+            }
+}
+
+static void check_step(int degree, const pia_index *count, int dim)
+{
+    surface *s = open_surface(degree, count[0], count[1], dim, 2);
+    pia_step_errors errors;
+    pia_index row;
+    double moved = 0;
+    assert_int_equal(pia_square_grid_suits(s->op, dim), 1);
+    assert_ok(s->context, pia_square_grid_step(s->op, &s->targets, s->x, &errors));
+    assert_true(largest_error(s, s->x, &row) < 1e-10 && errors.after.max < 1e-10);
+    assert_int_equal(errors.after.count, count[0] * count[1]);
+    assert_near(errors.before.max, largest_error(s, s->points, &row), 1e-11);
+    assert_int_equal(errors.before.max_row, row);
+    assert_int_equal(errors.before.count, count[0] * count[1]);
+    for (pia_index i = 0; i < count[0] * count[1]; i++) {
+        double square = 0;
+        for (int d = 0; d < dim; d++) square += pow(s->x[i * dim + d] - s->points[i * dim + d], 2);
+        moved = fmax(moved, sqrt(square));
+    }
+    assert_near(errors.moved, moved, 1e-10);
+    close_surface(s);
+}
+
+static void a_step_leads_to_the_interpolating_surface(void **state)
+{
+    (void)state;
+    for (int degree = 1; degree <= 5; degree++)
+        for (int k = 0; k < SIZE_COUNT; k++)
+            for (int dim = 1; dim < MOST_DIM; dim++) check_step(degree, SIZES[k], dim);
+}
+
+static void points_that_are_all_one_have_no_error(void **state)
+{
+    (void)state;
+    surface *s = open_surface(3, 20, 30, 2, 2);
+    pia_step_errors errors;
+    for (pia_index i = 0; i < size_of(s); i++) s->points[i] = 7;
+    assert_ok(s->context, pia_square_grid_step(s->op, &s->targets, s->x, &errors));
+    assert_true(errors.after.max == 0 && errors.moved == 0);
+    assert_int_equal(errors.after.max_row, 0);
+    assert_int_equal(errors.before.max_row, 0);
+    for (pia_index i = 0; i < size_of(s); i++) assert_true(s->x[i] == 7);
+    close_surface(s);
+}
+
+static void the_number_of_threads_changes_no_bit(void **state)
+{
+    (void)state;
+    static const int threads[] = {1, 2, 3, 8};
+    for (int dim = 1; dim <= 3; dim += 2) {
+        surface *first = open_surface(3, 83, 85, dim, 1);
+        pia_step_errors first_errors, errors;
+        assert_ok(first->context, pia_square_grid_step(first->op, &first->targets, first->x, &first_errors));
+        for (size_t k = 0; k < sizeof threads / sizeof *threads; k++) {
+            surface *s = open_surface(3, 83, 85, dim, threads[k]);
+            assert_ok(s->context, pia_square_grid_step(s->op, &s->targets, s->x, &errors));
+            assert_memory_equal(s->x, first->x, (size_t)size_of(s) * sizeof(double));
+            assert_true(errors.before.sum_squares == first_errors.before.sum_squares && errors.moved == first_errors.moved);
+            assert_true(errors.after.sum_squares == first_errors.after.sum_squares);
+            assert_true(errors.after.max == first_errors.after.max && errors.after.max_row == first_errors.after.max_row);
+            close_surface(s);
+        }
+        close_surface(first);
+    }
+}
+
+static void knots_that_do_not_suit_are_refused(void **state)
+{
+    (void)state;
+    surface *s = open_surface(3, 40, 40, 1, 2);
+    pia_step_errors errors;
+    pia_collocation_close(s->context, &s->line[1]);
+    for (int i = 10; i < 16; i++) s->t[1][i] = s->t[1][16] - 1e-3 * (16 - i);
+    assert_ok(s->context,
+              pia_collocation_open(s->context, 3, PIA_MAP_IDENTITY, 0, s->knots[1], 40, s->t[1], 40, PIA_STORE_VALUES, &s->line[1]));
+    assert_status(s->context, pia_square_grid_step(s->op, &s->targets, s->x, &errors), PIA_E_DATA);
+    close_surface(s);
+}
+
+static void only_plain_grids_of_few_components_are_suited(void **state)
+{
+    (void)state;
+    surface *s = open_surface(3, 20, 20, MOST_DIM, 1);
+    assert_int_equal(pia_square_grid_suits(s->op, MOST_DIM), 0);
+    assert_int_equal(pia_square_grid_suits(s->op, MOST_DIM - 1), 1);
+    assert_ok(s->context, pia_op_freeze(s->op, 5, 1));
+    assert_int_equal(pia_square_grid_suits(s->op, 1), 0);
+    close_surface(s);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(solving_lines_side_by_side_undoes_the_operator),
+        cmocka_unit_test(a_step_leads_to_the_interpolating_surface),
+        cmocka_unit_test(points_that_are_all_one_have_no_error),
+        cmocka_unit_test(the_number_of_threads_changes_no_bit),
+        cmocka_unit_test(knots_that_do_not_suit_are_refused),
+        cmocka_unit_test(only_plain_grids_of_few_components_are_suited),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
