@@ -61,6 +61,7 @@ typedef struct pia_band_qr {
     double *r, *q;
 } pia_band_qr;
 pia_status pia_band_qr_open(pia_context *context, pia_index columns, int width, int dim, pia_band_qr *out);
+void pia_band_qr_clear(pia_band_qr *qr); /* back to no rows */
 /* row [width] and right [dim] are overwritten; first + width <= columns. */
 void pia_band_qr_add(pia_band_qr *qr, pia_index first, double *row, double *right);
 /* Solution [columns x dim] into x; columns whose diagonal is at most threshold times the largest keep x as it was given, and the others

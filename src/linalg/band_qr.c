@@ -22,6 +22,12 @@ pia_status pia_band_qr_open(pia_context *context, pia_index columns, int width, 
     return PIA_OK;
 }
 
+void pia_band_qr_clear(pia_band_qr *qr)
+{
+    memset(qr->r, 0, (size_t)(qr->columns * qr->width) * sizeof *qr->r);
+    memset(qr->q, 0, (size_t)(qr->columns * qr->dim) * sizeof *qr->q);
+}
+
 static void rotate(double cosine, double sine, double *upper, double *lower, int count)
 {
     for (int k = 0; k < count; k++) {

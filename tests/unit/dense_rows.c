@@ -134,6 +134,37 @@ static void rows_that_crowd_keep_their_digits(void **state)
     pia_model_destroy(model);
 }
 
+/* Nearly as many control points as rows, at parameters by chance: the rows hold every control point, but some of them by so little that
+ * their functions are nearly dependent. The fit comes close all the same, and its control points stay within reach. */
+static void nearly_dependent_functions_stay_near_the_data(void **state)
+{
+    enum { COUNT = 100, CONTROL = 93, TRIALS = 150 };
+    unsigned seed = 1;
+    for (int trial = 0; trial < TRIALS; trial++) {
+        double t[COUNT], points[COUNT], control[CONTROL];
+        pia_data data;
+        pia_fit_options options;
+        pia_model *model;
+        pia_report report = {.struct_size = sizeof report};
+        t[0] = 0;
+        for (int i = 1; i < COUNT; i++) t[i] = t[i - 1] - log(1 - ((seed = seed * 1664525u + 1013904223u) >> 8) / 16777216.0);
+        for (int i = 0; i < COUNT; i++) points[i] = sin(7 * (t[i] /= t[COUNT - 1]));
+        pia_data_init(&data);
+        pia_fit_options_init(&options);
+        data.points = points;
+        data.count[0] = COUNT;
+        data.dim = 1;
+        data.parameters = t;
+        options.degree[0] = 3 + trial % 3;
+        options.control[0] = CONTROL;
+        assert_ok(*state, pia_fit_data(*state, &data, &options, &model, &report));
+        pia_model_control(model, control, NULL);
+        for (int i = 0; i < CONTROL; i++) assert_true(fabs(control[i]) < 1e4);
+        assert_true(report.max_error < 1e-5);
+        pia_model_destroy(model);
+    }
+}
+
 /* Points met exactly by a fit of high degree: the system of the constraints keeps its digits as well. */
 static void constraints_of_high_degree_are_met_at_the_constrained_minimum(void **state)
 {
@@ -173,6 +204,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(degrees_up_to_the_highest_keep_the_digits_of_the_rows),
         cmocka_unit_test(rows_that_crowd_keep_their_digits),
+        cmocka_unit_test(nearly_dependent_functions_stay_near_the_data),
         cmocka_unit_test(constraints_of_high_degree_are_met_at_the_constrained_minimum),
     };
     return cmocka_run_group_tests(tests, open_context, close_context);
