@@ -25,7 +25,10 @@ static pia_index wanted_control(const pia_fit *fit, int d)
     pia_index asked = fit->options.control[d], rows = fit->kind == PIA_SCATTERED ? fit->rows : fit->count[d];
     if (asked != PIA_AUTO) return asked;
     if (fit->square) return rows;
-    if (fit->refining) return fit->closed[d] ? (fit->degree[d] > 2 ? fit->degree[d] + 1 : 4) : fit->degree[d] + 1;
+    if (fit->refining) {
+        pia_index start = fit->closed[d] && fit->degree[d] < 3 ? 4 : fit->degree[d] + 1;
+        return fit->closed[d] && fit->kind != PIA_SCATTERED && start > rows ? rows : start;
+    }
     pia_index tenth = rows / 10, least = fit->degree[d] + 1;
     return tenth > least ? tenth : least < rows ? least : rows;
 }
@@ -35,7 +38,8 @@ pia_status pia_fit_check_control(pia_fit *fit, int d, pia_index control)
     pia_context *context = fit->context;
     pia_index least = fit->closed[d] ? 3 : fit->degree[d] + 1, rows = fit->count[d];
     if (fit->closed[d] && least < fit->degree[d]) least = fit->degree[d];
-    if (rows < least && fit->kind != PIA_SCATTERED && (fit->square || pia_fit_by_line(fit)))
+    int chosen = fit->square || pia_fit_by_line(fit) || fit->options.control[d] == PIA_AUTO; /* by us, not by the caller */
+    if (rows < least && fit->kind != PIA_SCATTERED && chosen)
         return pia_fail(context, PIA_E_DATA,
                         "%lld distinct points are too few for degree %d; lower the degree to %lld or give more points", (long long)rows,
                         fit->degree[d], (long long)(rows > 1 ? rows - 1 : 1));
