@@ -326,7 +326,8 @@ typedef struct pia_order_report {
 
 /* An order for points of a curve that have none: order [count] becomes the rows along the curve. how: "nearest", from a point far off
  * always to the nearest that is left; "tree", along the longest path of the spanning tree; "given" or NULL, the rows as they are.
- * report may be NULL. Errors: PIA_E_ARGUMENT, PIA_E_DATA (not finite), MEMORY, SIZE. O(count log count) for points along a curve. */
+ * report may be NULL. Errors: PIA_E_ARGUMENT, PIA_E_DATA (not finite, or 1e154 apart), MEMORY, SIZE. O(count log count) for points
+ * along a curve. */
 pia_status pia_points_order(pia_context *context, const double *points, pia_index count, int dim, const char *how, pia_index *order,
                             pia_order_report *report);
 

@@ -74,7 +74,8 @@ static void join(forest *f)
     for (pia_index row = 0; row < count; row++) f->group[row] = root_of(f->group, row);
 }
 
-static void grow(forest *f)
+/* Trees that stay apart are farther from each other than a double can tell: 1e154. */
+static pia_status grow(pia_context *context, forest *f)
 {
     pia_index count = f->tree.count, before = -1;
     for (pia_index row = 0; row < count; row++) f->group[row] = row;
@@ -86,6 +87,8 @@ static void grow(forest *f)
     }
     for (pia_index e = 0; e < f->taken; e++) f->edge[e].length = sqrt(f->edge[e].length);
     qsort(f->edge, (size_t)f->taken, sizeof *f->edge, by_length);
+    if (f->taken == count - 1) return PIA_OK;
+    return pia_fail(context, PIA_E_DATA, "the points lie too far apart to measure their distances; rescale them");
 }
 
 pia_status pia_spanning_tree(pia_context *context, const double *points, pia_index count, int dim, pia_tree_edge **edges)
@@ -98,13 +101,14 @@ pia_status pia_spanning_tree(pia_context *context, const double *points, pia_ind
     f.best = pia_take(context, count, sizeof *f.best);
     f.edge = pia_take(context, count, sizeof *f.edge);
     if (f.group != NULL && f.all_group != NULL && f.best != NULL && f.edge != NULL) {
-        grow(&f);
-        *edges = f.edge;
-        f.edge = NULL;
+        status = grow(context, &f);
     } else {
         status = pia_take_status(context, count, sizeof *f.best);
     }
-    pia_give(context, f.edge);
+    if (status == PIA_OK)
+        *edges = f.edge;
+    else
+        pia_give(context, f.edge);
     pia_give(context, f.best);
     pia_give(context, f.all_group);
     pia_give(context, f.group);

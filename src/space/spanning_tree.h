@@ -11,7 +11,7 @@ typedef struct pia_tree_edge {
 
 /* The count - 1 edges of the tree of points [count x dim], shortest first, equally long ones by rows; the caller gives them back. By
  * Boruvka's rounds with a k-d tree. O(count log^2 count) for points that fill lines or surfaces evenly. Errors: PIA_E_MEMORY,
- * PIA_E_SIZE. */
+ * PIA_E_SIZE, PIA_E_DATA (squares of distances overflow). */
 pia_status pia_spanning_tree(pia_context *context, const double *points, pia_index count, int dim, pia_tree_edge **edges);
 
 #endif
