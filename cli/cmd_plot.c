@@ -159,6 +159,18 @@ static pia_status write_page(const struct request *request, const char *path, co
     return pia_page_write(request->session->context, path, models, count, solid->points, solid->count, &page);
 }
 
+static int check_components(const struct request *request, const pia_model *const *models, pia_index count, int dim)
+{
+    for (pia_index m = 0; m < count; m++) {
+        pia_model_info info = {.struct_size = sizeof info};
+        pia_model_get_info(models[m], &info);
+        if (info.dim != dim)
+            return fail(EXIT_DATA, "%s: points have %d components, the model has %d; choose with --columns", request->source.path, dim,
+                        info.dim);
+    }
+    return EXIT_DONE;
+}
+
 /* The models and points of one part, or all of them. */
 static int draw(struct request *request, const struct model_set *set, const struct point_set *points)
 {
@@ -177,6 +189,8 @@ static int draw(struct request *request, const struct model_set *set, const stru
     if (request->source.path) {
         span = points_span(points, part);
         struct point_set shown = points_of_part(points, part);
+        code = check_components(request, models, count, shown.info.dim);
+        if (code) return code;
         solid = points_without_holes(session, &shown.info, count == 1 ? stored_parameters(session, models[0], &shown.info) : NULL);
         request->options.parameters = solid.parameters;
     }
