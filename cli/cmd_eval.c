@@ -116,6 +116,18 @@ static int read_parameters(struct request *request, const pia_model_info *info, 
     return EXIT_DONE;
 }
 
+static void tell_outside(const struct request *request, const pia_model_info *info, const double *at, pia_index rows)
+{
+    pia_index outside = 0;
+    for (pia_index i = 0; i < rows * info->directions; i++) {
+        const double *domain = info->domain[i % info->directions];
+        outside += at[i] < domain[0] || at[i] > domain[1];
+    }
+    if (outside)
+        session_warn(request->session, "%lld parameters outside the domain were taken at its nearest end; 'pia info %s' tells it",
+                     (long long)outside, request->model);
+}
+
 /* ---- The table ---- */
 
 struct table {
@@ -150,6 +162,7 @@ static int build_table(struct request *request, const pia_model *model, struct t
     double *at = NULL;
     int code = read_parameters(request, &info, &at, &out->rows);
     if (code || !at) return code;
+    tell_outside(request, &info, at, out->rows);
     pia_index rows = out->rows, K = request->derivative;
     int per_point = info.dim * (int)(info.directions == 1 ? K + 1 : (K + 1) * (K + 2) / 2), d = info.directions;
     int bent = request->curvature ? d : 0;
