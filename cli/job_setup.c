@@ -22,6 +22,10 @@ static int decide_kind(struct fit_job *job)
         return fail(EXIT_USAGE, "--fit-function is for curves; leave it out for a surface");
     if (job->kind == PIA_CURVE && request->closed && strchr(request->closed, 'v'))
         return fail(EXIT_USAGE, "--closed: a curve has no direction v; write --closed");
+    const pia_fit_options *options = &request->options;
+    if (job->kind == PIA_CURVE && (options->degree[0] != options->degree[1] || options->control[0] != options->control[1]))
+        return fail(EXIT_USAGE,
+                    "a curve has one degree and one number of control points; leave out the second, or say --grid or --surface");
     return EXIT_DONE;
 }
 
