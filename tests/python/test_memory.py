@@ -63,7 +63,7 @@ class References(Case):
     def test_no_object_is_lost_by_any_call(self):
         if not sys.getallocatedblocks():
             self.skipTest("PYTHONMALLOC=malloc counts nothing; the next test runs without it")
-        growth, rounds = [], 50
+        growth, rounds = [], 100
         for _ in range(8):
             gc.collect()
             before = sys.getallocatedblocks()
