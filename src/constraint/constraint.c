@@ -200,6 +200,14 @@ int pia_constraints_keeps(const pia_constraints *c, pia_index i)
     return c->begin[i + 1] > c->begin[i];
 }
 
+int pia_constraints_are_points(const pia_constraints *c)
+{
+    if (c->axis != NULL || c->rank != c->count) return 0;
+    for (pia_index i = 0; i < c->count; i++)
+        if (c->origin[i].point < 0 || c->origin[i].derivative[0] + c->origin[i].derivative[1] > 0) return 0;
+    return 1;
+}
+
 int pia_constraints_coupled(const pia_constraints *c)
 {
     return c->axis != NULL;

