@@ -14,6 +14,7 @@
 
 enum { SMALL = 20000 }; /* rows that are not worth a thread */
 static const double weak_pivot = 1e-12, ridge = 1e-9;
+static const double rounding = 1e-14; /* basis values of no more are 0 but for rounding: rows on the border of their span */
 
 typedef struct surface {
     pia_stencil stencil;
@@ -170,7 +171,7 @@ static pia_index find_scale(const pia_normal *normal)
     const surface *s = normal->state;
     pia_index empty = 0;
     for (pia_index c = 0; c < normal->op->cols; c++) {
-        int frozen = normal->op->frozen != NULL && normal->op->frozen[c], held = normal->diagonal[c] > 0;
+        int frozen = normal->op->frozen != NULL && normal->op->frozen[c], held = normal->diagonal[c] > rounding * normal->column_sum[c];
         s->scale[c] = held && !frozen ? 1 / sqrt(normal->diagonal[c]) : 0;
         empty += !held && !frozen;
     }

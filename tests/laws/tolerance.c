@@ -325,6 +325,50 @@ static void surfaces_keep_the_tolerance(void **state)
     pia_context_destroy(context);
 }
 
+/* Scattered rows on the borders of spans: basis functions are 0 there but for rounding, which holds no control point. */
+static void rows_on_knots_are_as_far_as_is_said(void **state)
+{
+    (void)state;
+    enum { SIDE = 9, ROWS = SIDE * SIDE - 1 };
+    pia_context *context;
+    assert_ok(NULL, pia_context_create(NULL, &context));
+    for (int missing = 1; missing < ROWS; missing += 7) {
+        double parameters[2 * ROWS], points[3 * ROWS], at[3 * ROWS], worst = 0, control[3 * 4 * SIDE * SIDE];
+        for (int row = 0; row < ROWS; row++) {
+            int place = row + (row >= missing);
+            double u = parameters[2 * row] = (double)(place / SIDE) / (SIDE - 1),
+                   v = parameters[2 * row + 1] = (double)(place % SIDE) / (SIDE - 1);
+            points[3 * row] = u;
+            points[3 * row + 1] = v;
+            points[3 * row + 2] = sin(9 * u) * cos(7 * v);
+        }
+        problem p;
+        pia_data_init(&p.data);
+        pia_fit_options_init(&p.options);
+        p.data.kind = PIA_SCATTERED;
+        p.data.points = points;
+        p.data.parameters = parameters;
+        p.data.count[0] = ROWS;
+        p.data.count[1] = 1;
+        p.data.dim = 3;
+        p.options.degree[0] = p.options.degree[1] = 1;
+        p.options.tolerance = 1e-4;
+        pia_model *model;
+        pia_report report = {.struct_size = sizeof report};
+        assert_ok(context, pia_fit_data(context, &p.data, &p.options, &model, &report));
+        assert_ok(context, pia_model_eval(context, model, parameters, ROWS, 0, at));
+        for (int row = 0; row < ROWS; row++)
+            worst = fmax(worst, hypot(hypot(at[3 * row] - points[3 * row], at[3 * row + 1] - points[3 * row + 1]),
+                                      at[3 * row + 2] - points[3 * row + 2]));
+        assert_near(report.max_error, worst, 1e-9);
+        assert_true(report.control_count <= 4 * SIDE * SIDE);
+        pia_model_control(model, control, NULL);
+        for (int i = 0; i < 3 * report.control_count; i++) assert_true(fabs(control[i]) < 1e6);
+        pia_model_destroy(model);
+    }
+    pia_context_destroy(context);
+}
+
 static void surfaces_keep_the_tolerances_of_axes(void **state)
 {
     (void)state;
@@ -648,6 +692,7 @@ int main(void)
         cmocka_unit_test(axis_tolerances_that_make_no_sense_are_refused),
         cmocka_unit_test(the_number_of_threads_changes_no_bit),
         cmocka_unit_test(surfaces_keep_the_tolerance),
+        cmocka_unit_test(rows_on_knots_are_as_far_as_is_said),
         cmocka_unit_test(surfaces_keep_the_tolerances_of_axes),
         cmocka_unit_test(a_letter_needs_few_control_points),
         cmocka_unit_test(corners_are_sharp_whether_found_or_given),
