@@ -2,6 +2,7 @@
 
 #include "file_name.h"
 #include "fit_job.h"
+#include "holes.h"
 #include "registry.h"
 
 /* ---- Files ---- */
@@ -14,9 +15,12 @@ static int decide_kind(struct fit_job *job)
     if (info->kind == PIA_GRID && request->kind == KIND_CURVE)
         return fail(EXIT_USAGE, "%s: is a grid, through which no curve runs; leave out --curve", request->source.path);
     if (request->kind == KIND_SURFACE) {
+        struct solid solid = points_without_holes(job->session, info, NULL);
         job->kind = PIA_SCATTERED;
-        info->count[0] *= info->count[1];
+        info->points = solid.points;
+        info->count[0] = solid.count;
         info->count[1] = 1;
+        if (solid.row) info->row = solid.row;
     }
     if (job->kind != PIA_CURVE && request->function_graph)
         return fail(EXIT_USAGE, "--fit-function is for curves; leave it out for a surface");

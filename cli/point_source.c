@@ -112,7 +112,7 @@ int points_open(struct point_source *source, struct point_set *out)
     if (source->columns && source->weights) wanted.columns = session_text(session, "%s,%s", source->columns, source->weights);
     wanted.skip_invalid = source->skip_invalid;
     wanted.grid = matrix;
-    wanted.allow_nan = source->grid;
+    wanted.allow_nan = source->grid ? 1 : PIA_AUTO;
     *out = (struct point_set){.info.struct_size = sizeof out->info};
     int code = session_check(session, pia_points_read(session->context, source->path, &wanted, &out->file), source->path);
     if (code) return code;

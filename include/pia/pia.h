@@ -548,7 +548,7 @@ typedef struct pia_points_options {
     const char *columns; /* "x,y,z" names or "1,2" numbers from 1; NULL: all numeric columns */
     int skip_invalid;    /* 1: bad rows and rows with values that are not finite are dropped and counted */
     int grid;            /* 1: a text or 2-D NPY matrix is a grid of heights; 0: rows are points */
-    int allow_nan;       /* 1: NaN is kept (holes of a grid) */
+    int allow_nan;       /* 1: NaN is kept; 0: refused; PIA_AUTO: kept as the holes of what the file says is a grid */
 } pia_points_options;
 
 /* Zeroes and NULL. */

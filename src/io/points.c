@@ -78,10 +78,11 @@ static pia_status drop_invalid(pia_context *context, const pia_input *input, int
 pia_status pia_points_screen(pia_context *context, const pia_input *input, const pia_points_options *options, pia_points *points)
 {
     pia_index count = points->count[0] * points->count[1];
+    int allow_nan = options->allow_nan == PIA_AUTO ? points->kind == PIA_GRID : options->allow_nan;
     for (pia_index i = 0; i < count; i++) {
-        int component = find_invalid(points->points + i * points->dim, points->dim, options->allow_nan);
+        int component = find_invalid(points->points + i * points->dim, points->dim, allow_nan);
         if (component < 0) continue;
-        if (points->kind != PIA_GRID && options->skip_invalid) return drop_invalid(context, input, options->allow_nan, points);
+        if (points->kind != PIA_GRID && options->skip_invalid) return drop_invalid(context, input, allow_nan, points);
         return refuse_point(context, input, points, i, component);
     }
     return PIA_OK;

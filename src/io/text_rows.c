@@ -89,7 +89,7 @@ static int find_problem(const reading *r, const pia_text_line *line, double *val
         double value = 0;
         if (r->columns->slot[f] < 0) continue;
         int number = pia_text_number(&field, &value);
-        if (!number || !(isfinite(value) || (isnan(value) && r->options->allow_nan))) {
+        if (!number || !(isfinite(value) || (isnan(value) && r->options->allow_nan > 0))) {
             out->index = f;
             out->field = field;
             out->number = number;
