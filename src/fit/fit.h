@@ -68,7 +68,8 @@ struct pia_fit {
     double *tolerances, *inverse_tolerance; /* [rows] what each row may deviate; NULL: the option for all */
     double *axis_tolerances;                /* [dim] what each component may deviate beside that; NULL: no such limits */
     int has_holes;
-    int unseen; /* 1: nobody has looked at the points yet: no origin, no extent; and the parameters given may not be in order */
+    int unseen; /* 1: nobody has looked at the points yet: no origin, no extent; and the parameters given of a curve may not be in order
+                 */
     double origin[PIA_MAX_DIM], low[PIA_MAX_DIM], high[PIA_MAX_DIM];
     double extent; /* of what is fitted */
 
@@ -119,7 +120,8 @@ struct pia_fit {
 
 /* Whether numbers and counts of the options are in their ranges. */
 pia_status pia_fit_check_options(pia_fit *fit, int directions);
-/* Leaves the points of an open curve with given parameters unseen: the pass that sums them may look at them as well. */
+/* Leaves the points of an open curve with given parameters unseen: the pass that sums them may look at them as well. Those of such a
+ * grid too, unless the fit is careful. */
 pia_status pia_fit_take_data(pia_fit *fit, const pia_data *data);
 /* The tolerances of points and axes; options.tolerance becomes the largest that a row has where it was not asked. */
 pia_status pia_fit_take_tolerances(pia_fit *fit, const double *tolerances);
@@ -129,7 +131,7 @@ int pia_fit_keeps_tolerances(pia_iterate *iterate);
 int pia_fit_axis_errors(const pia_fit *fit, double *out);
 /* Notes the axes that do not keep their tolerance. */
 void pia_fit_describe_axes(pia_fit *fit);
-/* Looks at points that no such pass will see. */
+/* Looks at points that no such pass will see. Errors: PIA_E_DATA, also for a grid with holes, which a careful fit expects. */
 pia_status pia_fit_see(pia_fit *fit);
 /* The `look` of a normal form, owner a fit: that pass's findings become origin and extent, or an error that names the row. */
 struct pia_survey;
@@ -193,7 +195,8 @@ pia_status pia_fit_take_back(pia_fit *fit, const pia_fit_kept *kept, pia_status 
 void pia_fit_keep_drop(pia_fit *fit, pia_fit_kept *kept);
 
 /* Opens without a copy of the data where the method allows: data outlives the fit. Unless it is to be careful, the start may be left
- * out, and the check of the data left to the solve, which then fails with the points still unseen where it cannot go on. */
+ * out, and the check of the data left to the solve, which then fails with the points still unseen where it cannot go on, or to the
+ * sums: a grid with holes is then PIA_E_DATA. */
 pia_status pia_fit_borrow(pia_context *context, const pia_data *data, const pia_fit_options *options, int careful, pia_fit **out);
 
 /* pia_fit_report without a pass over the data: errors are NAN, and their row -1, where they are not known. */

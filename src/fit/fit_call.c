@@ -7,7 +7,10 @@ static pia_status fit_once(pia_context *context, const pia_data *data, const pia
     pia_fit *fit;
     *again = 0;
     pia_status status = pia_fit_borrow(context, data, options, careful, &fit);
-    if (status != PIA_OK) return status;
+    if (status != PIA_OK) {
+        *again = !careful && status == PIA_E_DATA;
+        return status;
+    }
     status = pia_fit_run(fit, NULL);
     *again = !careful && (fit->unseen || fit->iterate.points == NULL);
     if (status == PIA_OK && !*again && report != NULL) status = pia_fit_report(fit, report);

@@ -135,7 +135,10 @@ static pia_status see(pia_fit *fit, const double *points, int dim)
 
 pia_status pia_fit_see(pia_fit *fit)
 {
-    return fit->unseen ? see(fit, fit->points, fit->dim) : PIA_OK;
+    if (!fit->unseen) return PIA_OK;
+    pia_status status = see(fit, fit->points, fit->dim);
+    if (status != PIA_OK || !fit->has_holes) return status;
+    return pia_fail(fit->context, PIA_E_DATA, "the grid has holes, which a fit has to know before it chooses");
 }
 
 pia_status pia_fit_look(void *owner, const pia_survey *survey)
@@ -355,6 +358,15 @@ static pia_status drop_seam(pia_fit *fit, int direction)
     return status;
 }
 
+/* Whether parameters, knots and method can be chosen before anybody looks at the points; those of a grid may be holes, which only a
+ * careful fit knows in time. */
+static int may_wait(const pia_fit *fit, const pia_data *data)
+{
+    if (data->parameters == NULL || fit->options.closed[0]) return 0;
+    if (fit->kind == PIA_GRID) return !fit->careful && !fit->options.closed[1];
+    return fit->kind == PIA_CURVE && !fit->function_graph;
+}
+
 pia_status pia_fit_take_data(pia_fit *fit, const pia_data *data)
 {
     pia_status status = check_shape(fit, data);
@@ -367,7 +379,7 @@ pia_status pia_fit_take_data(pia_fit *fit, const pia_data *data)
     fit->function_graph = data->function_graph;
     fit->dim = data->dim - (data->function_graph != 0);
     fit->points = data->points;
-    fit->unseen = fit->kind == PIA_CURVE && data->parameters != NULL && !fit->function_graph && !fit->options.closed[0];
+    fit->unseen = may_wait(fit, data);
     if (!fit->unseen) status = see(fit, data->points, data->dim);
     if (status == PIA_OK) status = take_weights(fit, data->weights);
     if (status == PIA_OK) status = pia_fit_take_tolerances(fit, data->tolerances);

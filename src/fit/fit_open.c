@@ -98,7 +98,7 @@ int pia_fit_is_one_step(const pia_fit *fit)
 
 int pia_fit_is_trusting(const pia_fit *fit)
 {
-    return fit->unseen && is_plain(fit) && fit->options.knots[0] != NULL && fit->solve.limiter == NULL &&
+    return fit->unseen && fit->directions == 1 && is_plain(fit) && fit->options.knots[0] != NULL && fit->solve.limiter == NULL &&
            pia_windows_suit_rows(fit->rows, fit->degree[0]);
 }
 
@@ -193,14 +193,21 @@ pia_status pia_fit_assemble(pia_fit *fit)
     return status == PIA_OK ? scale_gradient(fit) : status;
 }
 
+/* Whether the normal form looks at the data while it sums them: that of a grid where it is a Kronecker product. */
+static int is_seen_by_sums(const pia_fit *fit)
+{
+    const pia_fit_options *o = &fit->options;
+    if (fit->square || fit->refining || pia_fit_by_line(fit)) return 0;
+    return fit->directions == 1 || (fit->weights == NULL && o->robust == NULL && o->freeze_count == 0 && !(o->fairing > 0));
+}
+
 static pia_status open_stages(pia_fit *fit, const pia_data *data)
 {
     pia_status status = pia_fit_check_options(fit, data->kind == PIA_CURVE ? 1 : 2);
     for (int d = 0; d < 2 && fit->options.start != NULL; d++) fit->options.closed[d] |= fit->options.start->periodic[d];
     if (status == PIA_OK) status = pia_fit_take_data(fit, data);
     if (status == PIA_OK) status = pia_fit_choose(fit);
-    if (status == PIA_OK && (fit->square || fit->refining || pia_fit_by_line(fit)) && !pia_fit_is_trusting(fit))
-        status = pia_fit_see(fit);
+    if (status == PIA_OK && !is_seen_by_sums(fit) && !pia_fit_is_trusting(fit)) status = pia_fit_see(fit);
     if (status == PIA_OK) status = pia_fit_parametrize(fit, data);
     if (status == PIA_OK) status = pia_fit_place(fit);
     if (status == PIA_OK) status = pia_fit_assemble(fit);

@@ -29,8 +29,9 @@ static pia_status take_given(pia_fit *fit, const double *given, int direction, p
 {
     pia_context *context = fit->context;
     double first = given[0], last = given[given_count - 1];
-    *rising = !fit->unseen && pia_scan_rising(context, given, given_count);
-    int ordered = *rising || (fit->unseen ? isfinite(first) && isfinite(last) : pia_scan_ordered(context, given, given_count));
+    int unseen = fit->unseen && fit->directions == 1; /* the parameters of a grid are few */
+    *rising = !unseen && pia_scan_rising(context, given, given_count);
+    int ordered = *rising || (unseen ? isfinite(first) && isfinite(last) : pia_scan_ordered(context, given, given_count));
     if (!ordered || !(first < last) || (fit->closed[direction] && !(first >= 0 && last <= 1)))
         return pia_fit_refuse_parameters(fit, given, direction, given_count);
     if (fit->borrowed && fit->row == NULL && fit->directions == 1 && !fit->closed[0]) {

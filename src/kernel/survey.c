@@ -28,8 +28,15 @@ void pia_scout_reach(pia_scout *s, pia_index row)
 
 pia_survey pia_scout_close(const pia_scout *s)
 {
-    pia_survey survey = {.ordered = s->ordered};
-    survey.finite = pia_box_close(&s->box, survey.low, survey.high);
+    pia_survey survey = pia_survey_of(&s->box);
+    survey.ordered = s->ordered;
+    return survey;
+}
+
+pia_survey pia_survey_of(const pia_box *box)
+{
+    pia_survey survey = {.ordered = 1};
+    survey.finite = pia_box_close(box, survey.low, survey.high);
     return survey;
 }
 

@@ -4,7 +4,8 @@
 #include "vector.h"
 
 /* ROWS: taken together, as many streams of memory as a processor follows with ease. TWO: vectors side by side, so that every basis
- * value is used twice. COLUMNS: doubles of a line that stay in the first-level cache while all rows of a span are added to them. */
+ * value is used twice. COLUMNS: doubles of a line that stay in the first-level cache while all rows of a span are added to them, about.
+ */
 enum { MAX_CHUNKS = 32, ROWS = 4, TWO = 2, STEP = TWO * PIA_LANES, COLUMNS = 512 };
 
 typedef struct pass {
@@ -12,6 +13,7 @@ typedef struct pass {
     const pia_collocation *u, *v;
     const double *points;
     double *full;
+    pia_survey *survey; /* [chunks], NULL: unwanted */
 } pass;
 
 /* ---- along u ---- */
@@ -74,18 +76,34 @@ static void take_rows(const pass *p, pia_index row, int rows, pia_index s, doubl
     }
 }
 
-static void add_span(const pass *p, pia_index chunk, pia_index s)
+/* Whole vectors of whole points. */
+static pia_index piece_width(int dim)
+{
+    return COLUMNS / (STEP * dim) * (STEP * dim);
+}
+
+/* The scout sees the columns from .. to - 1 of a strip before they are summed. */
+static void see_strip(const strip *s, pia_index from, pia_index to, pia_box *box)
+{
+    for (int r = 0; r < s->rows; r++) pia_box_add(box, s->data[r] + from, (to - from) / box->dim);
+}
+
+/* box NULL: unwanted. */
+static void add_span(const pass *p, pia_index chunk, pia_index s, pia_box *box)
 {
     const pia_collocation *u = p->u;
     double scratch[ROWS][PIA_MAX_DEGREE + 1];
-    pia_index width = p->sums->width, end = u->begin[s + 1];
+    pia_index width = p->sums->width, end = u->begin[s + 1], piece = piece_width(p->sums->dim);
     strip part;
     for (int k = 0; k <= u->degree; k++) part.line[k] = ring_line(p, chunk, s + k);
-    for (pia_index from = 0; from < width; from += COLUMNS)
+    for (pia_index from = 0; from < width; from += piece) {
+        pia_index to = from + piece < width ? from + piece : width;
         for (pia_index row = u->begin[s]; row < end; row += ROWS) {
             take_rows(p, row, end - row < ROWS ? (int)(end - row) : ROWS, s, scratch, &part);
-            add_strip_of(&part, p->sums->origin, from, from + COLUMNS < width ? from + COLUMNS : width, u->degree);
+            if (box != NULL) see_strip(&part, from, to, box);
+            add_strip_of(&part, p->sums->origin, from, to, u->degree);
         }
+    }
 }
 
 /* ---- along v ---- */
@@ -139,23 +157,29 @@ static void sum_chunk(void *work, pia_index chunk)
     pia_index all = u->full - u->degree, row = p->v->full * sums->dim;
     pia_index from = pia_chunk_begin(all, sums->chunks, chunk), to = pia_chunk_begin(all, sums->chunks, chunk + 1);
     size_t line = (size_t)sums->width * sizeof(double);
+    pia_box box;
+    pia_box_open(sums->dim, &box);
     for (int k = 0; k <= u->degree; k++) memset(ring_line(p, chunk, from + k), 0, line);
     for (pia_index s = from; s < to; s++) {
-        add_span(p, chunk, s);
+        add_span(p, chunk, s, p->survey != NULL ? &box : NULL);
         contract(p->v, ring_line(p, chunk, s), sums->dim, p->full + s * row);
         memset(ring_line(p, chunk, s), 0, line);
     }
     for (int k = 0; k < u->degree; k++)
         contract(p->v, ring_line(p, chunk, to + k), sums->dim, sums->tail + (chunk * u->degree + k) * row);
+    if (p->survey != NULL) p->survey[chunk] = pia_survey_of(&box);
 }
 
-void pia_grid_sums_run(const pia_grid_sums *sums, const pia_targets *targets, double *full)
+void pia_grid_sums_run(const pia_grid_sums *sums, const double *points, double *full, pia_survey *survey)
 {
     const pia_op *op = sums->op;
-    pass p = {sums, op->line[0], op->line[1], targets->points, full};
+    pia_survey seen[MAX_CHUNKS];
+    pass p = {sums, op->line[0], op->line[1], points, full, survey != NULL ? seen : NULL};
     pia_index all = p.u->full - p.u->degree, degree = p.u->degree, row = p.v->full * sums->dim;
-    for (pia_index c = 0; c < sums->width; c++) sums->origin[c] = targets->origin[c % sums->dim];
+    for (pia_index c = 0; c < sums->width; c++) sums->origin[c] = points[c % sums->dim];
     pia_for_each(op->context, sums->chunks, sum_chunk, &p);
+    if (survey != NULL) *survey = seen[0];
+    for (pia_index c = 1; c < sums->chunks && survey != NULL; c++) *survey = pia_survey_join(survey, &seen[c], sums->dim);
     memset(full + all * row, 0, (size_t)(degree * row) * sizeof *full);
     for (pia_index chunk = 0; chunk < sums->chunks; chunk++) {
         double *to = full + pia_chunk_begin(all, sums->chunks, chunk + 1) * row;

@@ -20,7 +20,7 @@ static pia_status open_class(pia_normal *normal, const pia_targets *targets, con
     if (op->directions == 1) return pia_normal_curve_open(normal, targets, addition);
     if (op->line[0] == NULL || op->frozen != NULL || normal->energy != NULL || normal->pull > 0)
         return pia_normal_stencil_open(normal, targets);
-    pia_status status = pia_normal_grid_open(normal, targets);
+    pia_status status = pia_normal_grid_open(normal, targets, addition);
     if (status != PIA_E_UNAVAILABLE) return status;
     if (normal->class != NULL) normal->class->close(normal);
     return pia_normal_stencil_open(normal, targets);
@@ -69,6 +69,16 @@ void pia_normal_add_pull(pia_normal *normal, int dim)
         normal->column_sum[c] += normal->pull;
         for (int d = 0; d < dim; d++) normal->right[c * dim + d] += normal->pull * normal->start[c * dim + d];
     }
+    pia_op_mask(normal->op, normal->right, dim);
+}
+
+void pia_normal_move(pia_normal *normal, const pia_targets *targets, pia_index from, pia_index to)
+{
+    int dim = targets->dim;
+    double shift[PIA_MAX_DIM];
+    for (int d = 0; d < dim; d++) shift[d] = targets->points[d] - targets->origin[d];
+    for (pia_index i = from; i < to; i++)
+        for (int d = 0; d < dim; d++) normal->right[i * dim + d] += shift[d] * normal->column_sum[i];
     pia_op_mask(normal->op, normal->right, dim);
 }
 

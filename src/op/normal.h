@@ -50,8 +50,8 @@ typedef struct pia_addition {
     double fairing;      /* strength of the fairing energy beside the data (energy.h); 0: none */
     double pull;         /* weight of |P - start|^2; 0: none */
     const double *start; /* [cols x dim] relative to the targets' origin, borrowed; NULL without pull */
-    /* Of a curve whose rows nobody has checked yet: called with what the pass over them has found, before the targets' origin is used;
-     * anything but PIA_OK ends it. NULL: they are good. */
+    /* Of a curve, or a grid that is a Kronecker product, whose rows nobody has checked yet: called with what the pass over them has
+     * found, before the targets' origin is used; anything but PIA_OK ends it. NULL: they are good. */
     pia_status (*look)(void *owner, const struct pia_survey *survey);
     void *owner;
 } pia_addition;
@@ -64,9 +64,11 @@ void pia_normal_refresh(pia_normal *normal, const pia_targets *targets, pia_inde
 
 /* For the classes, when all else is in the sums: the pull in `right`, `diagonal` and `column_sum`; H is theirs. */
 void pia_normal_add_pull(pia_normal *normal, int dim);
+/* Unknowns from .. to - 1: right-hand sides relative to the first point become relative to the origin. */
+void pia_normal_move(pia_normal *normal, const pia_targets *targets, pia_index from, pia_index to);
 /* For pia_normal_open: the normal forms of its operators, whose arrays are allocated and whose state is to be made. */
 pia_status pia_normal_curve_open(pia_normal *normal, const pia_targets *targets, const pia_addition *addition);
-pia_status pia_normal_grid_open(pia_normal *normal, const pia_targets *targets);
+pia_status pia_normal_grid_open(pia_normal *normal, const pia_targets *targets, const pia_addition *addition);
 pia_status pia_normal_stencil_open(pia_normal *normal, const pia_targets *targets);
 
 #endif

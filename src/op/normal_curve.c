@@ -118,17 +118,6 @@ static void sum_rows(pia_normal *normal, const pia_targets *targets, pia_index f
     }
 }
 
-/* Unknowns from .. to - 1: their right-hand sides become relative to the origin. */
-static void move_to_origin(pia_normal *normal, const pia_targets *targets, pia_index from, pia_index to)
-{
-    int dim = targets->dim;
-    double shift[PIA_MAX_DIM];
-    for (int d = 0; d < dim; d++) shift[d] = targets->points[d] - targets->origin[d];
-    for (pia_index i = from; i < to; i++)
-        for (int d = 0; d < dim; d++) normal->right[i * dim + d] += shift[d] * normal->column_sum[i];
-    pia_op_mask(normal->op, normal->right, dim);
-}
-
 /* All that the data say, anew. */
 static pia_status sum_all(pia_normal *normal, const pia_targets *targets, const pia_addition *addition)
 {
@@ -137,7 +126,7 @@ static pia_status sum_all(pia_normal *normal, const pia_targets *targets, const 
     if (has_copies(line)) clear_rows(normal, 0, line->unknowns, targets->dim);
     sum_rows(normal, targets, 0, line->full, addition->look != NULL ? &survey : NULL);
     pia_status status = addition->look != NULL ? addition->look(addition->owner, &survey) : PIA_OK;
-    if (status == PIA_OK) move_to_origin(normal, targets, 0, line->unknowns);
+    if (status == PIA_OK) pia_normal_move(normal, targets, 0, line->unknowns);
     return status;
 }
 
@@ -206,7 +195,7 @@ static void refresh(pia_normal *normal, const pia_targets *targets, pia_index fi
     } else {
         pia_index from = pia_collocation_span(line, first_row) - line->degree, to = pia_collocation_span(line, last_row) + 1;
         sum_rows(normal, targets, from, to, NULL);
-        move_to_origin(normal, targets, from, to);
+        pia_normal_move(normal, targets, from, to);
     }
     add_more(normal, targets->dim);
 }

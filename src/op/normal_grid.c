@@ -1,4 +1,5 @@
-/* The normal form of a full grid without weights: H = Gu (x) Gv, never formed, and b = A_u' (Q - origin) A_v in one pass. */
+/* The normal form of a full grid without weights: H = Gu (x) Gv, never formed, and b = A_u' (Q - origin) A_v in one pass, relative to
+ * the first point until the origin is known. */
 #include "gram.h"
 #include "grid_sums.h"
 #include "normal.h"
@@ -14,13 +15,13 @@ typedef struct grid {
     double *half; /* [cols x dim] of a product, one direction done */
 } grid;
 
-static void sum_right(pia_normal *normal, const pia_targets *targets)
+/* survey NULL: unwanted. */
+static void sum_right(pia_normal *normal, const pia_targets *targets, pia_survey *survey)
 {
     const grid *g = normal->state;
     const pia_op *op = normal->op;
-    pia_grid_sums_run(&g->sums, targets, op->identity ? normal->right : g->full);
+    pia_grid_sums_run(&g->sums, targets->points, op->identity ? normal->right : g->full, survey);
     if (!op->identity) pia_op_reduce(op, g->full, targets->dim, normal->right);
-    pia_op_mask(op, normal->right, targets->dim);
 }
 
 static pia_status sum_gram(pia_context *context, const pia_collocation *line, pia_gram *gram)
@@ -97,7 +98,8 @@ static void refresh(pia_normal *normal, const pia_targets *targets, pia_index fi
 {
     (void)first_row;
     (void)last_row;
-    sum_right(normal, targets);
+    sum_right(normal, targets, NULL);
+    pia_normal_move(normal, targets, 0, normal->op->cols);
 }
 
 static void close(pia_normal *normal)
@@ -136,7 +138,7 @@ static int has_holes(const pia_normal *normal, int dim)
     return isnan(sum);
 }
 
-pia_status pia_normal_grid_open(pia_normal *normal, const pia_targets *targets)
+pia_status pia_normal_grid_open(pia_normal *normal, const pia_targets *targets, const pia_addition *addition)
 {
     const pia_op *op = normal->op;
     pia_context *context = op->context;
@@ -149,12 +151,16 @@ pia_status pia_normal_grid_open(pia_normal *normal, const pia_targets *targets)
     pia_status status = take_arrays(context, op, targets->dim, g);
     for (int d = 0; d < 2 && status == PIA_OK; d++) status = sum_gram(context, op->line[d], &g->gram[d]);
     if (status != PIA_OK) return status;
-    sum_right(normal, targets);
+    pia_survey survey;
+    sum_right(normal, targets, addition->look != NULL ? &survey : NULL);
+    if (addition->look != NULL) status = addition->look(addition->owner, &survey);
+    if (status != PIA_OK) return status;
     if (has_holes(normal, targets->dim)) return pia_fail(context, PIA_E_UNAVAILABLE, "a grid with holes is no Kronecker product");
     pia_index room = 2 * (op->count[0] + op->count[1]);
     double *work = pia_take(context, room, sizeof *work);
     if (work == NULL) return pia_take_status(context, room, sizeof *work);
     derive(normal, work);
     pia_give(context, work);
+    pia_normal_move(normal, targets, 0, op->cols);
     return PIA_OK;
 }

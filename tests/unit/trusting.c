@@ -1,4 +1,5 @@
-/* Long curves on given parameters and knots are checked by the solve alone; what is wrong with them is told as with any other. */
+/* Long curves on given parameters and knots are checked by the solve alone, grids by the sums of least squares; what is wrong with them
+ * is told as with any other, and holes are found. */
 #include "problems.h"
 
 enum { ROWS = 9000, DEGREE = 3 };
@@ -139,6 +140,105 @@ static void an_interrupted_fit_is_where_it_began(void **state)
     drop(c);
 }
 
+enum { LINES = 60, CONTROL = 12 };
+
+typedef struct grid {
+    double points[LINES * LINES * 2], parameters[2 * LINES];
+    pia_data data;
+    pia_fit_options options;
+    pia_context *context;
+} grid;
+
+static void make_grid(grid *g)
+{
+    assert_ok(NULL, pia_context_create(NULL, &g->context));
+    for (int i = 0; i < LINES; i++) {
+        g->parameters[i] = g->parameters[LINES + i] = i / (LINES - 1.0);
+        for (int j = 0; j < LINES; j++) {
+            g->points[2 * (i * LINES + j)] = 1e3 + i + 0.1 * j;
+            g->points[2 * (i * LINES + j) + 1] = sin(0.05 * i) * cos(0.07 * j);
+        }
+    }
+    pia_data_init(&g->data);
+    pia_fit_options_init(&g->options);
+    g->data.kind = PIA_GRID;
+    g->data.points = g->points;
+    g->data.parameters = g->parameters;
+    g->data.dim = 2;
+    for (int d = 0; d < 2; d++) {
+        g->data.count[d] = LINES;
+        g->options.control[d] = CONTROL;
+    }
+}
+
+static void check_grid_refused(grid *g, const char *message)
+{
+    pia_model *model = NULL;
+    assert_status(g->context, pia_fit_data(g->context, &g->data, &g->options, &model, NULL), PIA_E_DATA);
+    assert_null(model);
+    assert_string_equal(pia_message(g->context), message);
+    pia_context_destroy(g->context);
+}
+
+/* By the one call, and by a fit that looks before it chooses. */
+static void check_both_ways(grid *g)
+{
+    pia_report once = {.struct_size = sizeof once}, careful = {.struct_size = sizeof careful};
+    pia_model *model;
+    pia_fit *fit;
+    assert_ok(g->context, pia_fit_data(g->context, &g->data, &g->options, &model, &once));
+    assert_ok(g->context, pia_fit_open(g->context, &g->data, &g->options, &fit));
+    assert_ok(g->context, pia_fit_run(fit, NULL));
+    assert_ok(g->context, pia_fit_report(fit, &careful));
+    assert_string_equal(once.method, careful.method);
+    assert_near(once.rms_error, careful.rms_error, 1e-12);
+    assert_near(once.max_error, careful.max_error, 1e-12);
+    assert_true(once.max_error < 1e-3);
+    pia_fit_close(fit);
+    pia_model_destroy(model);
+    pia_context_destroy(g->context);
+}
+
+static void a_grid_is_seen_by_its_sums(void **state)
+{
+    (void)state;
+    grid g;
+    make_grid(&g);
+    check_both_ways(&g);
+}
+
+static void holes_and_weights_of_a_grid_are_known_in_time(void **state)
+{
+    (void)state;
+    static double weights[LINES * LINES];
+    grid g;
+    make_grid(&g);
+    g.points[2 * 777 + 1] = NAN;
+    check_both_ways(&g);
+    make_grid(&g);
+    for (int i = 0; i < LINES * LINES; i++) weights[i] = 1 + i % 3;
+    g.data.weights = weights;
+    check_both_ways(&g);
+}
+
+static void what_is_wrong_with_a_grid_is_named(void **state)
+{
+    (void)state;
+    grid g;
+    make_grid(&g);
+    g.points[2 * 3599] = -INFINITY;
+    check_grid_refused(&g, "row 3599: component 0 is -inf, not a finite number; drop such rows (--skip-invalid)");
+    make_grid(&g);
+    g.points[2 * 1234 + 1] = 1e200;
+    check_grid_refused(&g, "component 1 spans 1e+200, more than 1e+130; rescale the points");
+    make_grid(&g);
+    for (int i = 0; i < 2 * LINES * LINES; i++) g.points[i] = 7;
+    check_grid_refused(&g, "all 3600 points are equal; there is no surface to fit");
+    make_grid(&g);
+    g.parameters[LINES + 30] = 0;
+    check_grid_refused(&g, "v parameter 30 is 0, less than 0.49152542372881358 before it; sort the rows by parameter");
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -148,6 +248,9 @@ int main(void)
         cmocka_unit_test(rows_that_cannot_be_met_are_named),
         cmocka_unit_test(equal_points_cannot_be_met),
         cmocka_unit_test(an_interrupted_fit_is_where_it_began),
+        cmocka_unit_test(a_grid_is_seen_by_its_sums),
+        cmocka_unit_test(holes_and_weights_of_a_grid_are_known_in_time),
+        cmocka_unit_test(what_is_wrong_with_a_grid_is_named),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
