@@ -2,6 +2,7 @@
  * what is allowed, the largest of them where there are several. */
 #include "draft.h"
 #include "refine.h"
+#include "vector.h"
 
 #include <math.h>
 #include <string.h>
@@ -69,9 +70,45 @@ double pia_refine_ratio(const pia_fit *fit, pia_index row, const double *deviati
     return ratio;
 }
 
+PIA_INLINE double longest_of(const double *deviation, pia_index count, int dim)
+{
+    pia_lanes longest = {0};
+    double worst = 0;
+    pia_index row = 0;
+    for (; row + PIA_LANES <= count; row += PIA_LANES) {
+        pia_lanes square = {0};
+        for (int d = 0; d < dim; d++) {
+            pia_lanes x = pia_vector_component(deviation + row * dim, dim, d);
+            square += x * x;
+        }
+        longest = pia_vector_upper(square, longest);
+    }
+    for (; row < count; row++) {
+        double square = 0;
+        for (int d = 0; d < dim; d++) square += deviation[row * dim + d] * deviation[row * dim + d];
+        worst = fmax(worst, square);
+    }
+    for (int l = 0; l < PIA_LANES; l++) worst = fmax(worst, longest[l]);
+    return sqrt(worst);
+}
+
+/* The length of the longest of these deviations [count x dim]. */
+PIA_CLONES static double longest_deviation(const double *deviation, pia_index count, int dim)
+{
+    return dim == 3 ? longest_of(deviation, count, 3) : dim == 2 ? longest_of(deviation, count, 2) : longest_of(deviation, count, dim);
+}
+
+/* Whether the distance is all that counts, and the same for every row. */
+static int is_alike(const pia_fit *fit)
+{
+    return fit->tolerances == NULL && fit->axis_tolerances == NULL && fit->weights == NULL;
+}
+
 double pia_refine_worst(const pia_fit *fit, pia_index begin, pia_index end)
 {
     double worst = 0;
+    if (is_alike(fit))
+        return longest_deviation(fit->iterate.residual + begin * fit->dim, end - begin, fit->dim) / fit->options.tolerance;
     for (pia_index row = begin; row < end; row++)
         worst = fmax(worst, pia_refine_ratio(fit, row, fit->iterate.residual + row * fit->dim));
     return worst;
@@ -79,8 +116,8 @@ double pia_refine_worst(const pia_fit *fit, pia_index begin, pia_index end)
 
 double pia_refine_worst_of_all(const pia_fit *fit)
 {
-    int alike = fit->tolerances == NULL && fit->axis_tolerances == NULL && fit->weights == NULL && fit->iterate.errors_known;
-    return alike ? fit->iterate.errors.max / fit->options.tolerance : pia_refine_worst(fit, 0, fit->rows);
+    return is_alike(fit) && fit->iterate.errors_known ? fit->iterate.errors.max / fit->options.tolerance
+                                                      : pia_refine_worst(fit, 0, fit->rows);
 }
 
 int pia_fit_keeps_tolerances(pia_iterate *iterate)

@@ -4,6 +4,7 @@
 
 #include "band.h"
 #include "basis.h"
+#include "lanes.h"
 
 #include <math.h>
 #include <string.h>
@@ -19,7 +20,7 @@ static const double KEPT = 1 - 1e-9;
 pia_index pia_draft_room(int degree, int dim, int reach)
 {
     pia_index spans = 2 * reach + 2 * degree + 4 + PIA_WINDOW_SHORT;
-    return spans * (SAMPLE + REMEMBERED + GROUPS * EXCHANGES) * (degree + 1 + dim + 3);
+    return spans * (SAMPLE + REMEMBERED + GROUPS * EXCHANGES) * (degree + 1 + 2 * dim + 3);
 }
 
 static pia_rows rows_in(const pia_draft *draft, pia_index room)
@@ -28,7 +29,8 @@ static pia_rows rows_in(const pia_draft *draft, pia_index room)
     r.target = r.value + room * (draft->degree + 1);
     r.inverse = r.target + room * draft->dim;
     r.weight = r.inverse + room;
-    r.first = (int *)(r.weight + room);
+    r.difference = r.weight + room;
+    r.first = (int *)(r.difference + room * draft->dim);
     return r;
 }
 
@@ -92,14 +94,33 @@ static void sample_rows(const pia_draft *draft, const pia_window *w, const pia_i
 
 /* ---- the reweighted fit ---- */
 
+/* One row of a cubic, with its products side by side. Those beyond its last basis function are zeros, added to what stands there. */
+PIA_INLINE void add_cubic(const double *value, double weight, const double *difference, int dim, double *h, double *b)
+{
+    static const double none[PIA_LANES] = {0};
+    pia_lanes v = pia_vector_load(value), factor = weight * v, zero = pia_vector_load(none);
+    pia_lanes shifted[] = {v, __builtin_shufflevector(v, zero, 1, 2, 3, 4), __builtin_shufflevector(v, zero, 2, 3, 4, 4),
+                           __builtin_shufflevector(v, zero, 3, 4, 4, 4)};
+    for (int i = 0; i < 4; i++) pia_lanes_write(pia_vector_load(h + 4 * i) + factor[i] * shifted[i], h + 4 * i);
+    for (int part = 0; part < dim; part++) {
+        double *to = b + PIA_LANES * part;
+        pia_lanes each = {0};
+        for (int l = 0; l < PIA_LANES; l++) each[l] = difference[(PIA_LANES * part + l) % dim];
+        pia_lanes_write(pia_vector_load(to) + pia_lanes_spread(factor, dim, part) * each, to);
+    }
+}
+
 /* Normal equations of a piece: sums over all control points of the window, moving or not, in bands; those that stay are cut off. */
-static inline __attribute__((always_inline)) void sum_band(const pia_window *w, const pia_rows *r, int p, int dim, double *h, double *b)
+PIA_INLINE void sum_band(const pia_rows *r, int p, int dim, double *h, double *b)
 {
     for (pia_index k = 0; k < r->count; k++) {
-        const double *value = r->value + k * (p + 1);
-        double difference[PIA_MAX_DIM], weight = r->weight[k] * r->inverse[k] * r->inverse[k];
+        const double *value = r->value + k * (p + 1), *difference = r->difference + k * dim;
+        double weight = r->weight[k] * r->inverse[k] * r->inverse[k];
         double *h_row = h + (pia_index)r->first[k] * (p + 1), *b_row = b + (pia_index)r->first[k] * dim;
-        pia_row_difference(r, k, w->point, p, dim, difference);
+        if (p == 3 && dim <= 3) {
+            add_cubic(value, weight, difference, dim, h_row, b_row);
+            continue;
+        }
         for (int i = 0; i <= p; i++) {
             double factor = weight * value[i];
             for (int j = i; j <= p; j++) h_row[i * (p + 1) + j - i] += factor * value[j];
@@ -116,11 +137,11 @@ static inline void share_out(pia_rows *r, double total)
 }
 
 /* The largest ratio of all rows, the bound from below, and what Lawson makes of the weights. */
-static inline __attribute__((always_inline)) double judge(const pia_window *w, pia_rows *r, int p, int dim, double *bound)
+PIA_INLINE double judge(pia_rows *r, int p, int dim, const pia_window *w, double *bound)
 {
     double worst = 0, weighted = 0, total = 0, moved = 0;
     for (pia_index k = 0; k < r->count; k++) {
-        double difference[PIA_MAX_DIM], square = 0;
+        double *difference = r->difference + k * dim, square = 0;
         pia_row_difference(r, k, w->point, p, dim, difference);
         for (int d = 0; d < dim; d++) square += difference[d] * difference[d];
         double ratio = sqrt(square) * r->inverse[k];
@@ -140,7 +161,7 @@ static double judge_axes(const pia_window *w, pia_rows *r, const double *inverse
 {
     double worst = 0, weighted[PIA_MAX_DIM + 1] = {0}, total = 0, moved = 0;
     for (pia_index k = 0; k < r->count; k++) {
-        double difference[PIA_MAX_DIM], square = 0;
+        double *difference = r->difference + k * dim, square = 0;
         pia_row_difference(r, k, w->point, p, dim, difference);
         for (int d = 0; d < dim; d++) {
             square += difference[d] * difference[d];
@@ -163,16 +184,16 @@ static double judge_axes(const pia_window *w, pia_rows *r, const double *inverse
 #define PIA_UNROLL(result, call, p, dim, ...)                                                                                          \
     do {                                                                                                                               \
         if ((p) == 3 && (dim) == 3)                                                                                                    \
-            result call(w, r, 3, 3, __VA_ARGS__);                                                                                      \
+            result call(r, 3, 3, __VA_ARGS__);                                                                                         \
         else if ((p) == 3 && (dim) == 2)                                                                                               \
-            result call(w, r, 3, 2, __VA_ARGS__);                                                                                      \
+            result call(r, 3, 2, __VA_ARGS__);                                                                                         \
         else if ((p) == 3 && (dim) == 1)                                                                                               \
-            result call(w, r, 3, 1, __VA_ARGS__);                                                                                      \
+            result call(r, 3, 1, __VA_ARGS__);                                                                                         \
         else                                                                                                                           \
-            result call(w, r, p, dim, __VA_ARGS__);                                                                                    \
+            result call(r, p, dim, __VA_ARGS__);                                                                                       \
     } while (0)
 
-static void correct_piece(pia_window *w, const pia_rows *r, int p, int dim)
+PIA_CLONES static void correct_piece(pia_window *w, const pia_rows *r, int p, int dim)
 {
     double h[PIA_WINDOW_CONTROL * (PIA_MAX_DEGREE + 1)], b[PIA_WINDOW_CONTROL * PIA_MAX_DIM];
     memset(h, 0, (size_t)(w->count * (p + 1)) * sizeof *h);
@@ -191,6 +212,7 @@ static double fit_rows(const pia_draft *draft, pia_window *w, pia_rows *r, const
     const double *inverse_axis = draft->data->inverse_axis;
     int p = draft->degree, dim = draft->dim, cyclic = draft->cyclic;
     double ratio = INFINITY;
+    for (pia_index k = 0; k < r->count; k++) pia_row_difference(r, k, w->point, p, dim, r->difference + k * dim);
     for (int round = 0; round <= rounds; round++) {
         double bound;
         if (held->count > 0) {
@@ -202,7 +224,7 @@ static double fit_rows(const pia_draft *draft, pia_window *w, pia_rows *r, const
         if (inverse_axis != NULL)
             ratio = judge_axes(w, r, inverse_axis, p, dim, &bound);
         else
-            PIA_UNROLL(ratio =, judge, p, dim, &bound);
+            PIA_UNROLL(ratio =, judge, p, dim, w, &bound);
         if (ratio <= KEPT || bound > 1 || !isfinite(ratio)) break;
     }
     return ratio;
@@ -232,12 +254,31 @@ static piece piece_of(const pia_window *w, int span, int p, int dim)
     return c;
 }
 
-static inline __attribute__((always_inline)) void squares_of(const piece *c, const double *t, double shift, const double *q,
-                                                             const double *origin, int count, int p, int dim, double *square)
+PIA_INLINE pia_lanes spread(double x)
 {
-    double middle = c->middle - shift, last[PIA_MAX_DIM];
+    return (pia_lanes){x, x, x, x};
+}
+
+/* Squared distances of rows to the piece; returns the largest. */
+PIA_INLINE double squares_of(const piece *c, const double *t, double shift, const double *q, const double *origin, int count, int p,
+                             int dim, double *square)
+{
+    double middle = c->middle - shift, last[PIA_MAX_DIM], worst = 0;
+    pia_lanes largest = {0};
+    int k = 0;
     for (int d = 0; d < dim; d++) last[d] = c->coefficient[d] + origin[d];
-    for (int k = 0; k < count; k++) {
+    for (; k + PIA_LANES <= count; k += PIA_LANES) {
+        pia_lanes x = (pia_vector_load(t + k) - middle) * c->scale, sum = {0};
+        for (int d = 0; d < dim; d++) {
+            pia_lanes value = spread(c->coefficient[p * dim + d]);
+            for (int order = p - 1; order > 0; order--) value = value * x + c->coefficient[order * dim + d];
+            value = value * x + last[d] - pia_vector_component(q + k * dim, dim, d);
+            sum += value * value;
+        }
+        memcpy(square + k, &sum, sizeof sum);
+        largest = pia_vector_upper(sum, largest);
+    }
+    for (; k < count; k++) {
         double x = (t[k] - middle) * c->scale, sum = 0;
         for (int d = 0; d < dim; d++) {
             double value = c->coefficient[p * dim + d];
@@ -246,7 +287,18 @@ static inline __attribute__((always_inline)) void squares_of(const piece *c, con
             sum += value * value;
         }
         square[k] = sum;
+        if (sum > worst) worst = sum;
     }
+    for (int l = 0; l < PIA_LANES; l++) worst = fmax(worst, largest[l]);
+    return worst;
+}
+
+PIA_CLONES static double squares_of_piece(const piece *c, const double *t, double shift, const double *q, const double *origin,
+                                          int count, int p, int dim, double *square)
+{
+    if (p == 3 && dim == 3) return squares_of(c, t, shift, q, origin, count, 3, 3, square);
+    if (p == 3 && dim == 2) return squares_of(c, t, shift, q, origin, count, 3, 2, square);
+    return squares_of(c, t, shift, q, origin, count, p, dim, square);
 }
 
 /* The same for degrees whose powers lose digits, and for limits of components, as the distance that would be as bad. */
@@ -283,16 +335,14 @@ static double worst_of(const pia_draft *draft, const pia_window *w, const piece 
         pia_index left = to - k < data->rows - at ? to - k : data->rows - at;
         int count = left < BLOCK ? (int)left : BLOCK;
         const double *t = data->parameters + at, *q = data->points + at * dim;
+        double most = INFINITY, one = data->inverse_one;
         if (p > POLYNOMIAL || data->inverse_axis != NULL)
             squares_plain(w, data, at, shift, span, count, p, dim, square);
-        else if (p == 3 && dim == 2)
-            squares_of(c, t, shift, q, data->origin, count, 3, 2, square);
-        else if (p == 3 && dim == 3)
-            squares_of(c, t, shift, q, data->origin, count, 3, 3, square);
         else
-            squares_of(c, t, shift, q, data->origin, count, p, dim, square);
-        for (int i = 0; i < count; i++) {
-            double inverse = data->inverse_tolerance != NULL ? data->inverse_tolerance[at + i] : data->inverse_one;
+            most = squares_of_piece(c, t, shift, q, data->origin, count, p, dim, square);
+        int passed = data->inverse_tolerance == NULL && most * one * one <= worst; /* nothing worse in this block */
+        for (int i = 0; i < count && !passed; i++) {
+            double inverse = data->inverse_tolerance != NULL ? data->inverse_tolerance[at + i] : one;
             double ratio = square[i] * inverse * inverse;
             if (ratio <= worst) continue;
             worst = ratio;

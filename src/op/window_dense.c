@@ -25,8 +25,8 @@ static void sum_dense(const pia_window *w, const pia_rows *r, int p, int dim, in
 {
     for (pia_index k = 0; k < r->count; k++) {
         const double *value = r->value + k * (p + 1);
-        double difference[PIA_MAX_DIM], weight = r->weight[k] * r->inverse[k] * r->inverse[k];
-        pia_row_difference(r, k, w->point, p, dim, difference);
+        const double *difference = r->difference + k * dim;
+        double weight = r->weight[k] * r->inverse[k] * r->inverse[k];
         for (int i = 0; i <= p; i++) {
             int row = unknown_of(w, cyclic, r->first[k] + i);
             if (row < 0) continue;

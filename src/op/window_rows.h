@@ -7,11 +7,12 @@
 /* Rows, as arrays in the draft's work space. */
 typedef struct pia_rows {
     pia_index count, room;
-    double *value;   /* [room x (degree + 1)] basis values */
-    double *target;  /* [room x dim] */
-    double *inverse; /* [room] inverse tolerance */
-    double *weight;  /* [room] Lawson's */
-    int *first;      /* [room] index of the first control point */
+    double *value;      /* [room x (degree + 1)] basis values */
+    double *target;     /* [room x dim] */
+    double *inverse;    /* [room] inverse tolerance */
+    double *weight;     /* [room] Lawson's */
+    double *difference; /* [room x dim] to the curve as judged last */
+    int *first;         /* [room] index of the first control point */
 } pia_rows;
 
 static inline __attribute__((always_inline)) void pia_row_difference(const pia_rows *r, pia_index k, const double *points, int p,
