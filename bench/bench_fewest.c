@@ -38,6 +38,7 @@ typedef struct curve {
 typedef struct outcome {
     pia_index control;                /* 0: none */
     double seconds, processor, error; /* processor: of all threads */
+    double between;                   /* ours: distance from the straight lines between points that are far apart */
     int reached, late;                /* late: no result within the limit */
 } outcome;
 
@@ -151,7 +152,7 @@ static outcome ours(pia_context *context, const settings *s, const curve *c, dou
         fprintf(stderr, "%s: %s\n", c->name, pia_message(context));
         return (outcome){0};
     }
-    outcome out = {.control = report.control_count, .seconds = now() - start};
+    outcome out = {.control = report.control_count, .seconds = now() - start, .between = report.between_error};
     out.processor = seconds_of(CLOCK_PROCESS_CPUTIME_ID) - used;
     out = measure(context, c, model, tolerance, out);
     if (report.reached == 1 && !out.reached) printf("WRONG: %s says reached at %g but deviates %g\n", c->name, tolerance, out.error);
@@ -256,6 +257,7 @@ static double quantile(double *value, int count, double share)
 
 typedef struct totals {
     double ratio[MAX_CASES];
+    double between[MAX_CASES]; /* over the tolerance */
     int ratios, cases, reached, peer_reached[PEERS];
     double our_time[PEERS], peer_time[PEERS]; /* over the cases that both reached */
     int fastest;                              /* cases that both we and some peer reached, and the times of the fastest such peer */
@@ -278,7 +280,7 @@ static void run_case(pia_context *context, const settings *s, const curve *c, do
     double fastest = INFINITY;
     printf("%-38s %6lld %5.0e", c->name, (long long)c->rows, tolerance);
     print_cell(&mine);
-    t->cases++;
+    t->between[t->cases++] = mine.between / (tolerance * c->extent);
     t->reached += mine.reached;
     t->seconds += mine.seconds;
     t->processor += mine.processor;
@@ -302,7 +304,7 @@ static void run_case(pia_context *context, const settings *s, const curve *c, do
         t->our_fastest += mine.seconds;
         t->peer_fastest += fastest;
     }
-    printf("\n");
+    printf(mine.between > 3 * tolerance * c->extent ? " | between %.0f T\n" : "\n", mine.between / (tolerance * c->extent));
     fflush(stdout);
 }
 
@@ -310,6 +312,8 @@ static void print_totals(const settings *s, totals *t)
 {
     printf("%d cases, %d reached, %.3f s, %.3f s of processors, geometric mean of control points %.3f\n", t->cases, t->reached,
            t->seconds, t->processor, exp(t->controls / t->cases));
+    printf("between the points, in tolerances: median %.2f, nine of ten at most %.2f, worst %.0f\n", quantile(t->between, t->cases, 0.5),
+           quantile(t->between, t->cases, 0.9), quantile(t->between, t->cases, 1));
     for (int peer = 0; peer < PEERS; peer++)
         if ((s->peers >> peer & 1) != 0)
             printf("%-6s reached %d; time over these cases %.3f s, ours %.3f s, ratio %.2f\n", peer_names[peer], t->peer_reached[peer],

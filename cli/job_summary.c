@@ -44,6 +44,7 @@ static pia_report join_parts(const struct fit_job *job)
         all.point_count += part->point_count;
         all.iterations = part->iterations > all.iterations ? part->iterations : all.iterations;
         all.constraint_error = fmax(all.constraint_error, part->constraint_error);
+        all.between_error = fmax(all.between_error, part->between_error);
         join_axes(&job->request->options, part, &all);
         squares += part->rms_error * part->rms_error * (double)part->point_count;
         if (part->reached == 0 && all.reached != 0) {
@@ -103,6 +104,7 @@ static void put_report(struct json_writer *json, const pia_fit_options *options,
     json_number(json, "rms_error", report->rms_error);
     if (options->axis_tolerance_count > 0) put_axes(json, options, report);
     json_number(json, "constraint_error", report->constraint_error);
+    if (!isnan(report->between_error)) json_number(json, "between_error", report->between_error);
     json_text(json, "measure", report->measure_distance ? "distance" : "parametric");
 }
 

@@ -208,6 +208,8 @@ typedef struct pia_report {
     double seconds;              /* time spent inside this fit */
     int worst_axis;              /* component that takes most of its axis tolerance; PIA_AUTO: there are none, or errors are unknown */
     double axis_error[PIA_MAX_DIM]; /* largest deviation of each component, where there are axis tolerances; else NAN */
+    double between_error;           /* of a curve whose knots were found for a tolerance: how far it is from the straight line between
+                                       neighbouring           points where these are far apart, at most; NAN: not measured, or still running */
 } pia_report;
 
 /* One row of the trace: the model after `iteration` updates. */

@@ -203,6 +203,7 @@ class Report:
     rms_error: float
     axis_error: tuple[float, ...] | None
     worst_axis: int | None
+    between_error: float | None
     start_error: float
     measure: Literal["parametric", "distance"]
     constraint_error: float | None

@@ -21,6 +21,8 @@ class Report:
     rms_error           root of the mean square of the deviations, units of the points
     axis_error          largest deviation of each component, where there are axis tolerances; else None
     worst_axis          the component that takes most of its axis tolerance
+    between_error       how far a curve fitted to a tolerance is from the straight line between neighbouring points that are far apart;
+                        None where it was not measured
     start_error         max_error of the initial model
     measure             'parametric': at the parameters used; 'distance': to the closest point
     constraint_error    largest violation of a constraint; None without constraints

@@ -71,6 +71,7 @@ static int put_numbers(PyObject *dict, const pia_report *r)
         {"constraint_error", r->constraint_error},
         {"relative_gradient", r->relative_gradient},
         {"rate", r->rate},
+        {"between_error", r->between_error},
         {"seconds", r->seconds},
     };
     for (size_t i = 0; i < sizeof item / sizeof *item; i++)

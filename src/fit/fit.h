@@ -7,7 +7,7 @@
  *   fit_constrain.c   points and derivatives met exactly             fit_outcome.c  what is worth saying of the result
  *   fit_robust.c      weights of a robust loss                       fit_epia.c     groups and knot insertion of [2011]
  *   fit_noise.c       a tolerance that the noise suggests            fit_dominant.c Park's dominant columns
- *   fit_tolerance.c   what rows and components may deviate
+ *   fit_tolerance.c   what rows and components may deviate           fit_between.c  a curve between its points
  *   sequence*.c       control points that stand for data lines       fit_corners.c  corners, found or given
  *   fit_support.c     control points that the data do not hold        fit_correct.c  rounds of parameter correction
  *   refine*.c         knots for a tolerance                          fit_options.c  defaults, ranges, sentences of options */
@@ -116,6 +116,8 @@ struct pia_fit {
     double began;                    /* of a refinement: when it would have begun if it had not been interrupted */
     double *all_parameters;          /* of a grid, u then v, once asked for; NULL before */
     double seconds;                  /* spent in opening */
+    double between_error;            /* of a curve between its rows, see pia_report; and the row that the gap begins with */
+    pia_index between_row;
 };
 
 /* Whether numbers and counts of the options are in their ranges. */
@@ -129,6 +131,8 @@ pia_status pia_fit_take_tolerances(pia_fit *fit, const double *tolerances);
 int pia_fit_keeps_tolerances(pia_iterate *iterate);
 /* The largest deviation of each component [dim], from the residuals; returns the one that takes most of its tolerance. */
 int pia_fit_axis_errors(const pia_fit *fit, double *out);
+/* Measures a refined curve between its rows, and notes where it is far off. */
+void pia_fit_look_between(pia_fit *fit);
 /* Notes the axes that do not keep their tolerance. */
 void pia_fit_describe_axes(pia_fit *fit);
 /* Looks at points that no such pass will see. Errors: PIA_E_DATA, also for a grid with holes, which a careful fit expects. */

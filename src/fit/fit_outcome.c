@@ -49,6 +49,7 @@ void pia_fit_conclude(pia_fit *fit)
     pia_fit_describe_directions(fit);
     pia_fit_describe_outliers(fit);
     pia_fit_describe_axes(fit);
+    pia_fit_look_between(fit);
     if (fit->iterate.groups != NULL) pia_epia_outcome(fit);
     pia_fit_describe_support(fit);
 }

@@ -93,6 +93,7 @@ void pia_fit_tell(pia_fit *fit, pia_report *out)
     full.outlier_count = fit->robust.outliers;
     full.measure_distance = fit->refining && fit->options.measure_distance && iterate->project != NULL;
     full.round_count = fit->round;
+    full.between_error = fit->refining && fit->solve.stop != PIA_STOP_NONE ? fit->between_error : NAN;
     full.seconds = fit->seconds + fit->solve.seconds;
     pia_options_write(out, &full, sizeof full);
 }

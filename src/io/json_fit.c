@@ -34,6 +34,7 @@ static const member plain_member[] = {
     MEMBER("relative_gradient", REAL, relative_gradient),
     MEMBER("start_error", REAL, start_error),
     MEMBER("rate", REAL, rate),
+    MEMBER("between_error", REAL, between_error),
     MEMBER("repaired_count", COUNT, repaired_count),
     MEMBER("unsupported_count", COUNT, unsupported_count),
     MEMBER("outlier_count", COUNT, outlier_count),
