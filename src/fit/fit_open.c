@@ -56,7 +56,9 @@ static void set_rules(pia_fit *fit)
     fit->solve.rules = (pia_rules){
         .tolerance = o->tolerance,
         .keeps = fit->tolerances != NULL || fit->axis_tolerances != NULL ? pia_fit_keeps_tolerances : NULL,
-        .iterations = o->max_iterations == PIA_AUTO ? fit->solve.method->iterations : o->max_iterations,
+        .iterations = o->max_iterations != PIA_AUTO ? o->max_iterations
+                      : fit->refining               ? INT64_MAX
+                                                    : fit->solve.method->iterations,
         .change = o->stop_change < 0 ? default_change(fit) : o->stop_change,
         .gradient = o->stop_gradient < 0 ? 1e-12 : o->stop_gradient,
         .time_limit = o->time_limit,

@@ -14,6 +14,8 @@ int pia_refine_stopped(pia_fit *fit)
     if (solve->stop == PIA_STOP_NONE && pia_solve_cancelled(solve)) solve->stop = PIA_STOP_CANCELLED;
     if (solve->stop == PIA_STOP_NONE && solve->rules.time_limit > 0 && solve->seconds >= solve->rules.time_limit)
         solve->stop = PIA_STOP_TIME;
+    if (solve->stop == PIA_STOP_NONE && fit->iterate.iteration - solve->first_iteration >= solve->rules.iterations)
+        solve->stop = PIA_STOP_ITERATIONS;
     fit->paused = solve->stop == PIA_STOP_NONE && fit->iterate.iteration >= fit->refined_until;
     return solve->stop != PIA_STOP_NONE || fit->paused;
 }

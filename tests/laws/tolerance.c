@@ -222,6 +222,57 @@ static void axis_tolerances_that_make_no_sense_are_refused(void **state)
     pia_context_destroy(context);
 }
 
+/* An iteration is a round; the cap is kept and reached is what holds then. */
+static void the_iterations_asked_for_are_all_that_run(void **state)
+{
+    (void)state;
+    pia_context *context;
+    pia_report report = {.struct_size = sizeof report};
+    assert_ok(NULL, pia_context_create(NULL, &context));
+    problem p = wavy(3, 0, 2, 400, 0.02);
+    for (int most = 0; most < 3; most++) {
+        p.options.max_iterations = most;
+        assert_ok(context, pia_fit_data(context, &p.data, &p.options, NULL, &report));
+        assert_int_equal(report.iterations, most);
+        assert_int_equal(report.stop, PIA_STOP_ITERATIONS);
+        assert_int_equal(report.reached, 0);
+    }
+    free(p.points);
+    pia_context_destroy(context);
+}
+
+/* A right angle through few points, met by a curve that cannot follow it: the middle of a leg is off, the points are not. */
+static void a_curve_that_swings_out_between_its_points_says_so(void **state)
+{
+    (void)state;
+    static const double points[] = {0, 0, 1, 0, 2, 0, 3, 0, 13, 0, 13, 10, 14, 10, 15, 10, 16, 10, 17, 10};
+    pia_context *context;
+    pia_report report = {.struct_size = sizeof report};
+    pia_data data;
+    pia_fit_options options;
+    pia_fit *fit;
+    assert_ok(NULL, pia_context_create(NULL, &context));
+    pia_data_init(&data);
+    pia_fit_options_init(&options);
+    data.points = points;
+    data.count[0] = 10;
+    data.dim = 2;
+    options.tolerance = 0.01;
+    assert_ok(context, pia_fit_open(context, &data, &options, &fit));
+    assert_ok(context, pia_fit_run(fit, &report));
+    assert_int_equal(report.reached, 1);
+    assert_true(report.between_error > 0.1 && report.between_error < 10);
+    int told = 0;
+    for (pia_index i = 0; pia_fit_note(fit, i) != NULL; i++) told += strstr(pia_fit_note(fit, i), "between the points") != NULL;
+    assert_int_equal(told, 1);
+    pia_fit_close(fit);
+    problem dense = wavy(3, 1, 2, 4000, 0.05);
+    assert_ok(context, pia_fit_data(context, &dense.data, &dense.options, NULL, &report));
+    assert_true(report.between_error <= 0.06);
+    free(dense.points);
+    pia_context_destroy(context);
+}
+
 static void the_number_of_threads_changes_no_bit(void **state)
 {
     (void)state;
@@ -690,6 +741,8 @@ int main(void)
         cmocka_unit_test(a_loose_axis_costs_no_control_points),
         cmocka_unit_test(reached_means_every_tolerance_whatever_the_method),
         cmocka_unit_test(axis_tolerances_that_make_no_sense_are_refused),
+        cmocka_unit_test(the_iterations_asked_for_are_all_that_run),
+        cmocka_unit_test(a_curve_that_swings_out_between_its_points_says_so),
         cmocka_unit_test(the_number_of_threads_changes_no_bit),
         cmocka_unit_test(surfaces_keep_the_tolerance),
         cmocka_unit_test(rows_on_knots_are_as_far_as_is_said),

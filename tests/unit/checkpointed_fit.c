@@ -225,6 +225,19 @@ static void refining_a_surface_goes_on_with_the_same_bits(void **state)
             }
 }
 
+static void tolerances_of_axes_go_on_as_well(void **state)
+{
+    (void)state;
+    static const double axes[] = {1e-2, 1e-4};
+    pia_fit_options options;
+    pia_fit_options_init(&options);
+    options.method = "epia";
+    options.axis_tolerances = axes;
+    options.axis_tolerance_count = 2;
+    options.trace_every = 1;
+    check_fit(&options);
+}
+
 static void a_damaged_checkpoint_is_refused(void **state)
 {
     (void)state;
@@ -282,9 +295,13 @@ static void limiters_losses_fairing_and_gaps_go_on_as_well(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(limiters_losses_fairing_and_gaps_go_on_as_well), cmocka_unit_test(every_method_goes_on_with_the_same_bits),
-        cmocka_unit_test(epia_goes_on_inserting_the_same_knots),          cmocka_unit_test(refining_a_curve_goes_on_with_the_same_bits),
-        cmocka_unit_test(refining_a_surface_goes_on_with_the_same_bits),  cmocka_unit_test(a_damaged_checkpoint_is_refused),
+        cmocka_unit_test(limiters_losses_fairing_and_gaps_go_on_as_well),
+        cmocka_unit_test(every_method_goes_on_with_the_same_bits),
+        cmocka_unit_test(epia_goes_on_inserting_the_same_knots),
+        cmocka_unit_test(tolerances_of_axes_go_on_as_well),
+        cmocka_unit_test(refining_a_curve_goes_on_with_the_same_bits),
+        cmocka_unit_test(refining_a_surface_goes_on_with_the_same_bits),
+        cmocka_unit_test(a_damaged_checkpoint_is_refused),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
