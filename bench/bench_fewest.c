@@ -312,8 +312,8 @@ static void print_totals(const settings *s, totals *t)
 {
     printf("%d cases, %d reached, %.3f s, %.3f s of processors, geometric mean of control points %.3f\n", t->cases, t->reached,
            t->seconds, t->processor, exp(t->controls / t->cases));
-    printf("between the points, in tolerances: median %.2f, nine of ten at most %.2f, worst %.0f\n", quantile(t->between, t->cases, 0.5),
-           quantile(t->between, t->cases, 0.9), quantile(t->between, t->cases, 1));
+    printf("between the points, in tolerances: median %.2f, nine of ten at most %.2f, worst %.0f\n",
+           quantile(t->between, t->cases, 0.5), quantile(t->between, t->cases, 0.9), quantile(t->between, t->cases, 1));
     for (int peer = 0; peer < PEERS; peer++)
         if ((s->peers >> peer & 1) != 0)
             printf("%-6s reached %d; time over these cases %.3f s, ours %.3f s, ratio %.2f\n", peer_names[peer], t->peer_reached[peer],
