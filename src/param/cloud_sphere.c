@@ -33,8 +33,9 @@ static void turn_first_to(const double side[3], double axes[3][3])
 static void turn_to_side(const double centre[3], double radius, double axes[3][3])
 {
     double length = hypot(hypot(centre[0], centre[1]), centre[2]);
+    if (!(length > radius / 4)) return;
     const double side[3] = {-centre[0] / length, -centre[1] / length, -centre[2] / length};
-    if (length > radius / 4) turn_first_to(side, axes);
+    turn_first_to(side, axes);
 }
 
 enum { LOOKED_AT = 4000, LOOKS = 1000 };
