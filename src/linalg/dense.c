@@ -1,5 +1,7 @@
 #include "dense.h"
 
+#include "clones.h"
+
 #include <math.h>
 
 static void exchange(double *a, double *b)
@@ -9,22 +11,32 @@ static void exchange(double *a, double *b)
     *b = value;
 }
 
-/* Exchanges unknowns i < j of a symmetric matrix of which the lower triangle counts. */
+/* Exchanges unknowns i < j of a symmetric matrix of which the lower triangle counts, and the rows above i of its factor's transpose. */
 static void exchange_unknowns(double *s, pia_index n, pia_index i, pia_index j)
 {
-    for (pia_index k = 0; k < i; k++) exchange(&s[i * n + k], &s[j * n + k]);
+    for (pia_index k = 0; k < i; k++) {
+        exchange(&s[i * n + k], &s[j * n + k]);
+        exchange(&s[k * n + i], &s[k * n + j]);
+    }
     for (pia_index k = i + 1; k < j; k++) exchange(&s[k * n + i], &s[j * n + k]);
     for (pia_index k = j + 1; k < n; k++) exchange(&s[k * n + i], &s[k * n + j]);
     exchange(&s[i * n + i], &s[j * n + j]);
 }
 
-static void eliminate(double *s, pia_index n, pia_index k)
+/* x -= factor * y, [count]. */
+PIA_INLINE void subtract(double *restrict x, double factor, const double *restrict y, pia_index count)
 {
-    double pivot = sqrt(s[k * n + k]);
-    s[k * n + k] = pivot;
+    for (pia_index i = 0; i < count; i++) x[i] -= factor * y[i];
+}
+
+/* Column k of the factor goes into row k as well, so that all loops run along rows. Constraints that are far apart leave zeros. */
+PIA_CLONES static void eliminate(double *s, pia_index n, pia_index k)
+{
+    double pivot = sqrt(s[k * n + k]), *above = s + k * n;
+    above[k] = pivot;
     for (pia_index i = k + 1; i < n; i++) {
-        s[i * n + k] /= pivot;
-        for (pia_index j = k + 1; j <= i; j++) s[i * n + j] -= s[i * n + k] * s[j * n + k];
+        above[i] = s[i * n + k] /= pivot;
+        if (above[i] != 0) subtract(s + i * n + k + 1, above[i], above + k + 1, i - k);
     }
 }
 
@@ -49,23 +61,29 @@ pia_index pia_dense_cholesky(double *s, pia_index n, double rtol, pia_index *ord
     return n;
 }
 
+/* x [dim][n], of which `rank` count, := L'^-1 L^-1 x. */
+PIA_CLONES static void substitute(const double *factor, pia_index n, pia_index rank, double *x, int dim)
+{
+    for (pia_index k = 0; k < rank; k++)
+        for (int c = 0; c < dim; c++) {
+            double *column = x + c * n, value = column[k] /= factor[k * n + k];
+            subtract(column + k + 1, value, factor + k * n + k + 1, rank - k - 1);
+        }
+    for (pia_index k = rank - 1; k >= 0; k--)
+        for (int c = 0; c < dim; c++) {
+            double *column = x + c * n, value = column[k] /= factor[k * n + k];
+            subtract(column, value, factor + k * n, k);
+        }
+}
+
 void pia_dense_cholesky_solve(const double *factor, pia_index n, pia_index rank, const pia_index *order, double *b, int dim,
                               double *scratch)
 {
     for (pia_index i = 0; i < rank; i++)
-        for (int c = 0; c < dim; c++) {
-            double sum = b[order[i] * dim + c];
-            for (pia_index k = 0; k < i; k++) sum -= factor[i * n + k] * scratch[k * dim + c];
-            scratch[i * dim + c] = sum / factor[i * n + i];
-        }
-    for (pia_index i = rank - 1; i >= 0; i--)
-        for (int c = 0; c < dim; c++) {
-            double sum = scratch[i * dim + c];
-            for (pia_index k = i + 1; k < rank; k++) sum -= factor[k * n + i] * scratch[k * dim + c];
-            scratch[i * dim + c] = sum / factor[i * n + i];
-        }
+        for (int c = 0; c < dim; c++) scratch[c * n + i] = b[order[i] * dim + c];
+    substitute(factor, n, rank, scratch, dim);
     for (pia_index i = 0; i < n; i++)
-        for (int c = 0; c < dim; c++) b[order[i] * dim + c] = i < rank ? scratch[i * dim + c] : 0;
+        for (int c = 0; c < dim; c++) b[order[i] * dim + c] = i < rank ? scratch[c * n + i] : 0;
 }
 
 int pia_dense_lu(double *a, pia_index n, pia_index *pivot)

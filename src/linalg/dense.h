@@ -4,7 +4,8 @@
 
 #include "context.h"
 
-/* Cholesky with diagonal pivoting of a symmetric positive semidefinite s [n x n], in place (lower triangle of the permuted matrix).
+/* Cholesky with diagonal pivoting of a symmetric positive semidefinite s [n x n], in place: of which the lower triangle counts, by the
+ * factor of the permuted matrix below and its transpose above the diagonal.
  * order [n] receives the permutation. Stops at pivots below rtol times the largest; returns the rank. */
 pia_index pia_dense_cholesky(double *s, pia_index n, double rtol, pia_index *order);
 /* Solves with the leading rank unknowns of that factor; the others become 0. b [n x dim] in the original order. scratch [n x dim]. */
