@@ -59,12 +59,11 @@ PIA_INLINE void note_errors(double *square, const double *weight, int count, int
     errors->weighted += weight != NULL ? sum_lanes(square, whole) : sum;
 }
 
-PIA_CLONES static void take_blocks(const pia_run *run, pia_index done, const double *coefficient, pia_index first, double *out,
-                                   pia_run_errors *errors)
+PIA_CLONES static void take_blocks(const pia_run *run, const double *coefficient, pia_index first, double *out, pia_run_errors *errors)
 {
     double x[PIA_BLOCK], component[PIA_MAX_DIM][PIA_BLOCK], square[PIA_BLOCK];
     int dim = run->dim;
-    for (; done < run->count; done += PIA_BLOCK) {
+    for (pia_index done = 0; done < run->count; done += PIA_BLOCK) {
         int count = pia_block_count(run, done), whole = pia_block_fill(run, done, count, x, component);
         for (int k = 0; k < whole; k++) square[k] = 0;
         for (int d = 0; d < dim; d++) {
@@ -76,41 +75,51 @@ PIA_CLONES static void take_blocks(const pia_run *run, pia_index done, const dou
     }
 }
 
-/* Cubic, without weights, the differences not wanted: returns how many rows have been taken. */
-PIA_INLINE pia_index take_cubic(const pia_run *run, int dim, const double *coefficient, pia_index first, pia_run_errors *errors)
+/* Squares of the differences of the rows from t and q on. */
+PIA_INLINE pia_lanes cubic_squares(const pia_run *run, const double *t, const double *q, int dim, const double *coefficient)
 {
-    double square[PIA_BLOCK];
-    pia_index done = 0;
-    for (; done + PIA_BLOCK <= run->count; done += PIA_BLOCK) {
-        for (int k = 0; k < PIA_BLOCK; k += PIA_LANES) {
-            const double *t = run->t + done + k, *q = run->points + (done + k) * dim;
-            pia_lanes p[3], sum = {0};
-            pia_run_fetch(t, q, dim);
-            pia_run_cubic(run, t, p);
-            for (int d = 0; d < dim; d++) {
-                pia_lanes value = pia_vector_component(q, dim, d) - run->origin[d] - coefficient[d];
-                for (int j = 0; j < 3; j++) value -= coefficient[(j + 1) * dim + d] * p[j];
-                sum += value * value;
-            }
-            memcpy(square + k, &sum, sizeof sum);
-        }
-        note_errors(square, NULL, PIA_BLOCK, PIA_BLOCK, first + done, errors);
+    pia_lanes p[3], sum = {0};
+    pia_run_cubic(run, t, p);
+    for (int d = 0; d < dim; d++) {
+        pia_lanes value = pia_vector_component(q, dim, d) - run->origin[d] - coefficient[d];
+        for (int j = 0; j < 3; j++) value -= coefficient[(j + 1) * dim + d] * p[j];
+        sum += value * value;
     }
-    return done;
+    return sum;
 }
 
-PIA_CLONES static pia_index take_cubics(const pia_run *run, const double *coefficient, pia_index first, pia_run_errors *errors)
+/* Cubic, without weights, the differences not wanted, PIA_LANES rows at least. The last vector of a run is moved back to where it is
+ * full: what it finds again is the same, or falls into the room before the block. */
+PIA_INLINE void take_cubic(const pia_run *run, int dim, const double *coefficient, pia_index first, pia_run_errors *errors)
+{
+    double room[PIA_LANES + PIA_BLOCK], *square = room + PIA_LANES;
+    for (pia_index done = 0; done < run->count; done += PIA_BLOCK) {
+        int count = pia_block_count(run, done), whole = (count + PIA_LANES - 1) / PIA_LANES * PIA_LANES;
+        for (int k = whole - PIA_LANES; k < whole; k++) square[k] = 0;
+        for (int k = 0; k < whole; k += PIA_LANES) {
+            int at = k + PIA_LANES <= count ? k : count - PIA_LANES;
+            const double *t = run->t + done + at, *q = run->points + (done + at) * dim;
+            pia_run_fetch(t, q, dim);
+            pia_lanes sum = cubic_squares(run, t, q, dim, coefficient);
+            memcpy(square + at, &sum, sizeof sum);
+        }
+        note_errors(square, NULL, count, whole, first + done, errors);
+    }
+}
+
+PIA_CLONES static void take_cubics(const pia_run *run, const double *coefficient, pia_index first, pia_run_errors *errors)
 {
     switch (run->dim) {
-    case 1: return take_cubic(run, 1, coefficient, first, errors);
-    case 2: return take_cubic(run, 2, coefficient, first, errors);
-    default: return take_cubic(run, 3, coefficient, first, errors);
+    case 1: take_cubic(run, 1, coefficient, first, errors); break;
+    case 2: take_cubic(run, 2, coefficient, first, errors); break;
+    default: take_cubic(run, 3, coefficient, first, errors); break;
     }
 }
 
 void pia_run_residual(const pia_run *run, const double *coefficient, pia_index first, double *out, pia_run_errors *errors)
 {
-    pia_index done = 0;
-    if (pia_run_is_cubic(run) && run->weights == NULL && out == NULL) done = take_cubics(run, coefficient, first, errors);
-    if (done < run->count) take_blocks(run, done, coefficient, first, out, errors);
+    if (pia_run_is_cubic(run) && run->weights == NULL && out == NULL && run->count >= PIA_LANES)
+        take_cubics(run, coefficient, first, errors);
+    else
+        take_blocks(run, coefficient, first, out, errors);
 }

@@ -184,18 +184,25 @@ PIA_INLINE void residual_range(const pass *given, pia_index row, pia_index to, o
     }
 }
 
-/* In a span of many rows the curve is a polynomial of the local parameter, and no basis function is evaluated. */
-static void polynomial_residual(const pass *p, pia_index s, pia_run_errors *e)
+/* In spans of many rows the curve is a polynomial of the local parameter, and no basis function is evaluated for a row. */
+static void polynomial_residual(const pass *p, pia_index s, int count, pia_run_errors *e)
 {
-    int width = p->line->degree + 1;
-    double basis[(PIA_MAX_DEGREE + 1) * (PIA_MAX_DEGREE + 1)], curve[(PIA_MAX_DEGREE + 1) * PIA_MAX_DIM] = {0};
-    pia_span_data data = {NULL, p->line, p->weights, p->targets};
-    pia_run run = pia_span_run(&data, p->chebyshev, s, basis);
-    for (int k = 0; k < width; k++)
-        for (int j = 0; j < width; j++)
-            for (int d = 0; d < p->dim; d++) curve[j * p->dim + d] += basis[k * width + j] * p->full[(s + k) * p->dim + d];
-    pia_index first = p->line->begin[s];
-    pia_run_residual(&run, curve, first, p->out != NULL ? p->out + first * p->dim : NULL, e);
+    const pia_collocation *line = p->line;
+    pia_chebyshev_curves curves;
+    pia_chebyshev_take(p->chebyshev, line, s, count, p->full, p->dim, &curves);
+    for (int l = 0; l < count; l++) {
+        pia_index from = line->begin[s + l];
+        pia_run run = {.degree = line->degree,
+                       .dim = p->dim,
+                       .origin = p->targets->origin,
+                       .middle = curves.middle[l],
+                       .scale = curves.scale[l],
+                       .t = line->parameters + from,
+                       .points = p->targets->points + from * p->dim,
+                       .weights = p->weights != NULL ? p->weights + from : NULL,
+                       .count = line->begin[s + l + 1] - from};
+        pia_run_residual(&run, curves.coefficient[l], from, p->out != NULL ? p->out + from * p->dim : NULL, e);
+    }
 }
 
 /* First column of a chunk: that of the first span whose rows begin at or after the chunk's share of rows. */
@@ -213,7 +220,10 @@ PIA_INLINE void residual_spans(const pass *p, pia_index from, pia_index to, outp
     for (pia_index s = from, next; s < to; s = next) {
         for (next = s; next < to && !pia_span_is_full(c, next);) next++;
         residual_range(p, c->begin[s], c->begin[next], kind, degree, dim, e);
-        if (next < to) polynomial_residual(p, next++, e);
+        int count = 0;
+        while (count < PIA_LANES && next + count < to && pia_span_is_full(c, next + count)) count++;
+        if (count > 0) polynomial_residual(p, next, count, e);
+        next += count;
     }
 }
 
