@@ -1,5 +1,6 @@
 #include "functional.h"
 
+#include "band.h"
 #include "basis.h"
 #include "knots.h"
 
@@ -19,6 +20,15 @@ static double make_line(const pia_collocation *axis, double t, int order, pia_in
     return sum;
 }
 
+static void find_range(const pia_index *column, int width, pia_index *low, pia_index *high)
+{
+    *low = *high = column[0];
+    for (int k = 1; k < width; k++) {
+        if (column[k] < *low) *low = column[k];
+        if (column[k] > *high) *high = column[k];
+    }
+}
+
 double pia_functional_make(const pia_op *op, const double *t, const int *derivative, pia_functional *out)
 {
     double scale = 1;
@@ -34,7 +44,15 @@ double pia_functional_make(const pia_op *op, const double *t, const int *derivat
         for (int k = 0; k <= degree; k++) out->entry[d][k] /= sum;
         scale /= sum;
     }
+    for (int d = 0; d < 2; d++) find_range(out->column[d], out->width[d], &out->low[d], &out->high[d]);
     return scale;
+}
+
+int pia_functional_meets(const pia_functional *a, const pia_functional *b)
+{
+    for (int d = 0; d < 2; d++)
+        if (a->low[d] > b->high[d] || b->low[d] > a->high[d]) return 0;
+    return 1;
 }
 
 static inline __attribute__((always_inline)) void sum_entries(const pia_functional *f, const double *x, int across, int dim,
@@ -49,13 +67,15 @@ static inline __attribute__((always_inline)) void sum_entries(const pia_function
         }
 }
 
-/* Small systems are made of nothing else: the curve in one and three components has its counts known. */
+/* Small systems are made of nothing else: the curve in usual numbers of components has its counts known. */
 void pia_functional_value(const pia_functional *f, const double *x, int dim, double *value)
 {
     if (f->width[1] == 1 && dim == 1)
         sum_entries(f, x, 1, 1, value);
     else if (f->width[1] == 1 && dim == 3)
         sum_entries(f, x, 1, 3, value);
+    else if (f->width[1] == 1 && dim == PIA_LDL_SIDES)
+        sum_entries(f, x, 1, PIA_LDL_SIDES, value);
     else
         sum_entries(f, x, f->width[1], dim, value);
 }

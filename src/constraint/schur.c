@@ -76,7 +76,10 @@ void pia_schur_of_metric(const pia_constraints *c, pia_schur *s)
             pia_index unknown = pia_functional_unknown(&c->row[j], k, &entry);
             spread[unknown] += entry * c->inverse[unknown];
         }
-        for (pia_index i = j; i < c->count; i++) pia_functional_value(&c->row[i], spread, 1, &column[i]);
+        for (pia_index i = j; i < c->count; i++) {
+            column[i] = 0;
+            if (pia_functional_meets(&c->row[i], &c->row[j])) pia_functional_value(&c->row[i], spread, 1, &column[i]);
+        }
         pia_schur_fill(c, s, j, column);
         for (int k = 0; k < size; k++) spread[pia_functional_unknown(&c->row[j], k, &entry)] = 0;
     }

@@ -9,6 +9,7 @@
  * are ignored). LDL' in place. Returns the number of pivots that had to be refused: pivot <= threshold * original diagonal; such a
  * row is decoupled (its unknown becomes 0), its index goes to weak[0..], at most `weak_room` of them (weak may be NULL). */
 pia_index pia_band_ldl_factor(double *h, pia_index n, int width, double threshold, pia_index *weak, pia_index weak_room);
+enum { PIA_LDL_SIDES = 8 }; /* right-hand sides that are solved together at the least cost each */
 void pia_band_ldl_solve(const double *ldl, pia_index n, int width, double *b, int dim);
 
 /* The same for a cyclic band: H(i, (i + k) mod n), n > 2 width. The last `width` unknowns are bordered; border has room for

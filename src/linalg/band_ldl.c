@@ -1,11 +1,10 @@
 /* Symmetric positive definite bands. Row i is reduced by the rows before it (left-looking), so that its own diagonal is still the
  * original one when the pivot is judged. The inner loops get their bounds as constants: narrow bands live in registers. */
 #include "band.h"
-
-#define INLINE static inline __attribute__((always_inline))
+#include "clones.h"
 
 /* Subtracts from row i what the `reach` rows before it contribute, farthest first. */
-INLINE void reduce_row(double *h, pia_index i, int width, int reach)
+PIA_INLINE void reduce_row(double *h, pia_index i, int width, int reach)
 {
     double *row = h + i * (width + 1);
     for (int r = reach; r >= 1; r--) {
@@ -16,7 +15,7 @@ INLINE void reduce_row(double *h, pia_index i, int width, int reach)
 }
 
 /* Divides the row by its pivot, or decouples it: a pivot of 0 stands for "the unknown is 0". Returns 1 when decoupled. */
-INLINE int finish_row(double *row, int width, double floor)
+PIA_INLINE int finish_row(double *row, int width, double floor)
 {
     double pivot = row[0];
     int weak = !(pivot > floor);
@@ -25,7 +24,7 @@ INLINE int finish_row(double *row, int width, double floor)
     return weak;
 }
 
-INLINE pia_index factor(double *h, pia_index n, int width, double threshold, pia_index *weak, pia_index weak_room)
+PIA_INLINE pia_index factor(double *h, pia_index n, int width, double threshold, pia_index *weak, pia_index weak_room)
 {
     pia_index refused = 0;
     for (pia_index i = 0; i < n; i++) {
@@ -61,7 +60,7 @@ pia_index pia_band_ldl_factor(double *h, pia_index n, int width, double threshol
     }
 }
 
-INLINE void forward_row(const double *ldl, pia_index i, int width, int reach, double *b, int dim)
+PIA_INLINE void forward_row(const double *ldl, pia_index i, int width, int reach, double *b, int dim)
 {
     double *x = b + i * dim;
     for (int r = reach; r >= 1; r--) {
@@ -70,16 +69,19 @@ INLINE void forward_row(const double *ldl, pia_index i, int width, int reach, do
     }
 }
 
-INLINE void backward_row(const double *ldl, pia_index i, int width, int reach, double *b, int dim)
+PIA_INLINE void backward_row(const double *ldl, pia_index i, int width, int reach, double *b, int dim)
 {
     const double *row = ldl + i * (width + 1);
     double *x = b + i * dim;
-    for (int c = 0; c < dim; c++) x[c] = row[0] > 0 ? x[c] / row[0] : 0;
-    for (int r = reach; r >= 1; r--)
-        for (int c = 0; c < dim; c++) x[c] -= row[r] * x[c + r * dim];
+    double pivot = row[0];
+    for (int c = 0; c < dim; c++) x[c] = pivot > 0 ? x[c] / pivot : 0;
+    for (int r = reach; r >= 1; r--) {
+        double l = row[r];
+        for (int c = 0; c < dim; c++) x[c] -= l * x[c + r * dim];
+    }
 }
 
-INLINE void solve(const double *ldl, pia_index n, int width, double *b, int dim)
+PIA_INLINE void solve(const double *ldl, pia_index n, int width, double *b, int dim)
 {
     pia_index inside = n > width ? n - width : 0;
     for (pia_index i = 0; i < n && i < width; i++) forward_row(ldl, i, width, (int)i, b, dim);
@@ -88,18 +90,19 @@ INLINE void solve(const double *ldl, pia_index n, int width, double *b, int dim)
     for (pia_index i = inside - 1; i >= 0; i--) backward_row(ldl, i, width, width, b, dim);
 }
 
-INLINE void solve_any_dim(const double *ldl, pia_index n, int width, double *b, int dim)
+PIA_INLINE void solve_any_dim(const double *ldl, pia_index n, int width, double *b, int dim)
 {
     switch (dim) {
     case 1: solve(ldl, n, width, b, 1); break;
     case 2: solve(ldl, n, width, b, 2); break;
     case 3: solve(ldl, n, width, b, 3); break;
     case 4: solve(ldl, n, width, b, 4); break;
+    case PIA_LDL_SIDES: solve(ldl, n, width, b, PIA_LDL_SIDES); break;
     default: solve(ldl, n, width, b, dim); break;
     }
 }
 
-void pia_band_ldl_solve(const double *ldl, pia_index n, int width, double *b, int dim)
+PIA_CLONES static void solve_any_width(const double *ldl, pia_index n, int width, double *b, int dim)
 {
     switch (width) {
     case 1: solve_any_dim(ldl, n, 1, b, dim); break;
@@ -109,4 +112,9 @@ void pia_band_ldl_solve(const double *ldl, pia_index n, int width, double *b, in
     case 5: solve_any_dim(ldl, n, 5, b, dim); break;
     default: solve_any_dim(ldl, n, width, b, dim); break;
     }
+}
+
+void pia_band_ldl_solve(const double *ldl, pia_index n, int width, double *b, int dim)
+{
+    solve_any_width(ldl, n, width, b, dim);
 }

@@ -11,6 +11,7 @@
 enum { ENOUGH_STEPS = 4 };
 
 static const double ENOUGH = 1e-14; /* error or gradient of a limit, as far as rounding lets anybody see */
+static const double MISSED = 1e-6;  /* of the extent: by more than this constraints are missed, whatever the gradient says */
 
 typedef struct direct {
     double steps, left; /* what the step before left: the largest error, or the relative gradient */
@@ -26,17 +27,20 @@ static double remaining_error(pia_iterate *iterate, double steps)
     return iterate->errors.max / iterate->extent;
 }
 
+/* What the constraints forbid does not count, and does not change the constrained solution; where they are missed, that is enough to
+ * know that P is not the limit. */
 static double remaining_gradient(pia_iterate *iterate)
 {
+    const pia_constraints *constraints = iterate->constraints;
     pia_iterate_gradient(iterate, iterate->adjust);
-    if (iterate->constraints != NULL) { /* what the constraints forbid does not count, and does not change the constrained solution */
-        pia_constraints_reduce(iterate->constraints, iterate->adjust);
-        double norm = sqrt(pia_iterate_dot(iterate, iterate->adjust, iterate->adjust));
-        if (iterate->right_norm > 0) norm /= iterate->right_norm;
-        double violation = pia_constraints_violation(iterate->constraints, iterate->points, NULL) / iterate->extent;
-        iterate->relative_gradient = fmax(norm, violation);
+    if (constraints == NULL) return iterate->relative_gradient;
+    double violation = pia_constraints_violation(constraints, iterate->points, NULL) / iterate->extent;
+    if (violation <= MISSED) {
+        pia_constraints_reduce(constraints, iterate->adjust);
+        iterate->relative_gradient = sqrt(pia_iterate_dot(iterate, iterate->adjust, iterate->adjust));
+        if (iterate->right_norm > 0) iterate->relative_gradient /= iterate->right_norm;
     }
-    return iterate->relative_gradient;
+    return iterate->relative_gradient = fmax(iterate->relative_gradient, violation);
 }
 
 static pia_status solve(pia_iterate *iterate, double steps)

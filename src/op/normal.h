@@ -15,6 +15,7 @@ typedef struct pia_normal_class {
     void (*multiply)(const pia_normal *normal, const double *x, int dim, double *y); /* y = H x */
     pia_status (*factor)(pia_normal *normal);                                        /* before solve, and after every change */
     void (*solve)(const pia_normal *normal, double *b, int dim);                     /* b := H^-1 b */
+    int sides; /* right-hand sides that solve takes together at the least cost each; 0: as many as points have components */
     void (*solve_along)(const pia_normal *normal, int direction, double *b,
                         pia_index width); /* b [unknowns of direction x width] := G^-1 b, H = Gu (x) Gv; NULL: H is no product */
     void (*sweep)(const pia_normal *normal, double *x, int dim); /* one symmetric Gauss-Seidel sweep for H x = b;
