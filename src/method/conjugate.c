@@ -5,10 +5,14 @@
 #include <math.h>
 #include <string.h>
 
-enum { MAX_AGE = 10 };
+/* LONG: steps without a lower gradient, and so many for each unknown, after which there is none to be found. */
+enum { MAX_AGE = 10, LONG = 500, LONG_EACH = 20 };
+
+static const double LOWER = 0.9; /* what counts as lower */
 
 pia_status pia_conjugate_open(pia_iterate *iterate, pia_conjugate *out)
 {
+    out->lowest = INFINITY;
     pia_status status = pia_product_open(iterate, &out->product);
     return status == PIA_OK ? pia_vectors_take(iterate, PIA_CG_VECTORS, out->vector) : status;
 }
@@ -76,6 +80,17 @@ static void renew_gradient(pia_iterate *iterate, pia_conjugate *c)
     iterate->relative_gradient = iterate->right_norm > 0 ? norm / iterate->right_norm : norm;
 }
 
+/* In exact numbers there are no more steps than unknowns; rounding makes them some times as many, and sets the floor. */
+static void watch_gradient(pia_iterate *iterate, pia_conjugate *c)
+{
+    c->still++;
+    if (!(iterate->relative_gradient >= LOWER * c->lowest)) {
+        c->lowest = iterate->relative_gradient;
+        c->still = 0;
+    }
+    iterate->stalled = c->still > LONG + LONG_EACH * (double)iterate->op->cols;
+}
+
 void pia_conjugate_step(pia_iterate *iterate, pia_conjugate *c, pia_condition *condition, void *user)
 {
     int dim = iterate->dim;
@@ -83,6 +98,7 @@ void pia_conjugate_step(pia_iterate *iterate, pia_conjugate *c, pia_condition *c
     double *g = c->vector[PIA_CG_GRADIENT], *search = c->vector[PIA_CG_SEARCH], *image = c->vector[PIA_CG_IMAGE], *z = iterate->adjust;
     renew_gradient(iterate, c);
     condition(iterate, user, g, z);
+    watch_gradient(iterate, c);
     dot_components(iterate, c, g, z, gamma);
     memcpy(factor, gamma, sizeof gamma);
     divide(dim, factor, c->gamma);
@@ -105,4 +121,6 @@ void pia_conjugate_visit(pia_iterate *iterate, pia_conjugate *c, void (*visit)(v
     visit(user, "gradient", c->vector[PIA_CG_GRADIENT], iterate->op->cols * iterate->dim);
     visit(user, "age", &c->age, 1);
     visit(user, "gamma", c->gamma, PIA_MAX_DIM);
+    visit(user, "lowest", &c->lowest, 1);
+    visit(user, "still", &c->still, 1);
 }

@@ -14,6 +14,7 @@ typedef struct pia_conjugate {
     double gamma[PIA_MAX_DIM];      /* (g, z) of the step before; 0: none */
     int coupled;                    /* 1: one scalar for all components */
     double age;                     /* steps since the gradient was the iterate's own */
+    double lowest, still;           /* relative gradient so far, and steps since it was found */
 } pia_conjugate;
 
 /* z = M^-1 gradient, M symmetric and positive; may first take from the gradient what cannot be followed. */

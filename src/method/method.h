@@ -15,9 +15,10 @@ enum {
     PIA_NEEDS_NORMAL = 4, /* profits from the normal form */
     PIA_NEEDS_GROUPS = 8, /* [2011] */
     PIA_KNOWS_CONSTRAINTS = 16,
-    PIA_IS_FINITE = 32,     /* one step reaches the limit */
-    PIA_IS_LIMITABLE = 64,  /* a limiter may shorten its steps */
-    PIA_LEAST_SQUARES = 128 /* any number of rows, weights, holes */
+    PIA_IS_FINITE = 32,      /* one step reaches the limit */
+    PIA_IS_LIMITABLE = 64,   /* a limiter may shorten its steps */
+    PIA_LEAST_SQUARES = 128, /* any number of rows, weights, holes */
+    PIA_DESCENDS = 256       /* every step goes to the smallest squared error along it, however far that is */
 };
 
 typedef struct pia_method {

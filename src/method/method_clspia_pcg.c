@@ -8,6 +8,8 @@
 
 #include <math.h>
 
+static const double DRIFT = 1e-14; /* of the extent, from the constraints */
+
 typedef struct projected {
     pia_conjugate conjugate;
     double *metric; /* [cols] the diagonal of H; without constraints its reciprocals */
@@ -49,9 +51,20 @@ static void condition(pia_iterate *iterate, void *user, double *gradient, double
     iterate->relative_gradient = iterate->right_norm > 0 ? norm / iterate->right_norm : norm;
 }
 
+/* Where control points are far out, the rounding of many steps leads away from the plane. */
+static void stay_in_plane(pia_iterate *iterate, const projected *p)
+{
+    const pia_constraints *constraints = iterate->constraints;
+    if (constraints == NULL || p->conjugate.age != 0) return;
+    if (pia_constraints_violation(constraints, iterate->points, NULL) <= DRIFT * iterate->extent) return;
+    pia_constraints_finish(constraints, iterate->points);
+    iterate->errors_known = 0;
+}
+
 static pia_status adjust(pia_iterate *iterate, void *state)
 {
     projected *p = state;
+    stay_in_plane(iterate, p);
     pia_conjugate_step(iterate, &p->conjugate, condition, p);
     return PIA_OK;
 }
@@ -74,7 +87,7 @@ const pia_method pia_method_clspia_pcg = {
     .title = "constrained least squares by projected conjugate gradients",
     .reference = "chang2023",
     .detail = "least squares with constraints; every iterate meets them, the squared error never rises",
-    .needs = PIA_LEAST_SQUARES | PIA_NEEDS_NORMAL | PIA_KNOWS_CONSTRAINTS,
+    .needs = PIA_LEAST_SQUARES | PIA_NEEDS_NORMAL | PIA_KNOWS_CONSTRAINTS | PIA_DESCENDS,
     .iterations = 10000,
     .state_size = sizeof(projected),
     .begin = begin,

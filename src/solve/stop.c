@@ -1,5 +1,7 @@
 #include "stop.h"
 
+#include <math.h>
+
 /* An interpolation is stuck when it has found nothing better for long, and its errors are rounding or have stopped moving. Errors of
  * high degree may rise and fall for hundreds of steps before they reach a new low. */
 static int is_stuck(const pia_solve *solve)
@@ -10,11 +12,12 @@ static int is_stuck(const pia_solve *solve)
 }
 
 /* No step that leads anywhere is that much longer than the problem is large; those of a diverging iteration are soon, and then not
- * finite. Methods that take one step go as far as the solution is. */
+ * finite. Methods that take one step, or none that does not lower the squared error, go as far as the solution is. */
 static int runs_away(const pia_solve *solve)
 {
     static const double FARTHEST = 1e4;
     if (solve->method->needs & PIA_IS_FINITE) return 0;
+    if (solve->method->needs & PIA_DESCENDS) return !isfinite(solve->iterate->adjust_max);
     return !(solve->iterate->adjust_max <= FARTHEST * solve->reach);
 }
 
