@@ -1,5 +1,6 @@
 #include "kernel.h"
 #include "options.h"
+#include "reserve.h"
 
 enum { MAX_THREADS = 1024 };
 
@@ -30,9 +31,13 @@ pia_status pia_context_create(const pia_context_options *options, pia_context **
     const pia_kernel *kernel = pia_kernel_find(o.backend);
     if (kernel == NULL) return PIA_E_UNAVAILABLE;
 
-    pia_memory memory = o.allocate != NULL ? (pia_memory){o.allocate, o.release, o.user} : *pia_memory_default();
+    pia_memory memory = {o.allocate, o.release, o.user};
+    if (o.allocate == NULL && pia_reserve_open(&memory) != PIA_OK) return PIA_E_MEMORY;
     pia_context *context = pia_memory_take(&memory, 1, sizeof *context);
-    if (context == NULL) return PIA_E_MEMORY;
+    if (context == NULL) {
+        pia_reserve_close(&memory);
+        return PIA_E_MEMORY;
+    }
     *context = (pia_context){.memory = memory,
                              .threads = resolve_threads(o.threads, kernel),
                              .kernel = kernel,
@@ -48,6 +53,7 @@ void pia_context_destroy(pia_context *context)
     if (context == NULL) return;
     pia_memory memory = context->memory;
     pia_memory_give(&memory, context);
+    pia_reserve_close(&memory);
 }
 
 pia_status pia_context_set_threads(pia_context *context, int threads)

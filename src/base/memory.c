@@ -4,18 +4,14 @@
 #include <string.h>
 #include <sys/mman.h>
 
-enum {
-    ALIGNMENT = 64, /* a cache line, and every vector register */
-    HUGE_PAGE = 2 << 20,
-    LARGE_BLOCK = 2 * HUGE_PAGE /* whole huge pages from here on: at most half more, of which only what is used is touched */
-};
+enum { ALIGNMENT = 64 /* a cache line, and every vector register */ };
 
 /* Advice alone: the first touch of a huge page costs a third of that of the 512 small ones that it stands for. */
 static void *allocate_from_c(void *user, size_t size, size_t align)
 {
     (void)user;
-    int large = size >= LARGE_BLOCK;
-    if (large && align < HUGE_PAGE) align = HUGE_PAGE;
+    int large = size >= PIA_LARGE_BLOCK;
+    if (large && align < PIA_HUGE_PAGE) align = PIA_HUGE_PAGE;
     if (size > SIZE_MAX - (align - 1)) return NULL;
     size_t whole = (size + align - 1) / align * align;
     void *block = aligned_alloc(align, whole);

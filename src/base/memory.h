@@ -10,6 +10,11 @@ typedef struct pia_memory {
     void *user;
 } pia_memory;
 
+enum {
+    PIA_HUGE_PAGE = 2 << 20,
+    PIA_LARGE_BLOCK = 2 * PIA_HUGE_PAGE /* whole huge pages from here on: at most half more, of which only what is used is touched */
+};
+
 /* The C library's allocator. */
 const pia_memory *pia_memory_default(void);
 

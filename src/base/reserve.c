@@ -1,0 +1,90 @@
+/* The first touch of fresh memory, which the kernel clears, costs more than many a fit, and the C library gives large blocks back at
+ * once. Without locks, so that a process that was forked in between cannot hang. */
+#include "reserve.h"
+
+#include <malloc.h>
+#include <stdatomic.h>
+#include <stdint.h>
+#include <stdlib.h>
+#include <sys/mman.h>
+
+enum { BLOCKS = 8, MOST_BYTES = 512 << 20 };
+
+typedef struct reserve {
+    _Atomic(void *) block[BLOCKS];
+    atomic_llong bytes;
+} reserve;
+
+static void drop(reserve *r, void *block)
+{
+    atomic_fetch_sub(&r->bytes, (long long)malloc_usable_size(block));
+    free(block);
+}
+
+/* Into an empty place; returns 0 where there is none. */
+static int put(reserve *r, void *block)
+{
+    for (int k = 0; k < BLOCKS; k++) {
+        void *none = NULL;
+        if (atomic_compare_exchange_strong(&r->block[k], &none, block)) return 1;
+    }
+    return 0;
+}
+
+/* One of that size or up to half more; NULL where there is none. */
+static void *take(reserve *r, size_t size)
+{
+    for (int k = 0; k < BLOCKS; k++) {
+        if (atomic_load_explicit(&r->block[k], memory_order_relaxed) == NULL) continue;
+        void *block = atomic_exchange(&r->block[k], NULL);
+        if (block == NULL) continue;
+        size_t has = malloc_usable_size(block);
+        if (has >= size && has - size <= size / 2) {
+            atomic_fetch_sub(&r->bytes, (long long)has);
+            return block;
+        }
+        if (!put(r, block)) drop(r, block);
+    }
+    return NULL;
+}
+
+/* Returns 0 where it is one too many. Its pages stay what they are until somebody writes to them or the kernel has taken them. */
+static int keep(reserve *r, void *block)
+{
+    size_t has = malloc_usable_size(block);
+    if (atomic_fetch_add(&r->bytes, (long long)has) + (long long)has <= MOST_BYTES) {
+        (void)madvise(block, has / PIA_HUGE_PAGE * PIA_HUGE_PAGE, MADV_FREE);
+        if (put(r, block)) return 1;
+    }
+    atomic_fetch_sub(&r->bytes, (long long)has);
+    return 0;
+}
+
+static void *allocate(void *user, size_t size, size_t align)
+{
+    const pia_memory *c = pia_memory_default();
+    void *block = size >= PIA_LARGE_BLOCK ? take(user, size) : NULL;
+    return block != NULL ? block : c->allocate(c->user, size, align);
+}
+
+static void release(void *user, void *block)
+{
+    int large = (uintptr_t)block % PIA_HUGE_PAGE == 0 && malloc_usable_size(block) >= PIA_LARGE_BLOCK;
+    if (!large || !keep(user, block)) free(block);
+}
+
+pia_status pia_reserve_open(pia_memory *out)
+{
+    reserve *r = calloc(1, sizeof *r);
+    if (r == NULL) return PIA_E_MEMORY;
+    *out = (pia_memory){allocate, release, r};
+    return PIA_OK;
+}
+
+void pia_reserve_close(const pia_memory *memory)
+{
+    if (memory->release != release) return;
+    reserve *r = memory->user;
+    for (int k = 0; k < BLOCKS; k++) free(atomic_load(&r->block[k]));
+    free(r);
+}
