@@ -17,11 +17,15 @@ typedef struct direct {
     double steps, left; /* what the step before left: the largest error, or the relative gradient */
 } direct;
 
-/* Residuals go straight into D, so that no second array of them is needed. */
-static double remaining_error(pia_iterate *iterate, double steps)
+/* Whether the step before left an interpolation that needs no other, as it told itself: then no residual is needed to see it. */
+static int is_settled(const pia_iterate *iterate, double steps)
 {
-    double known = iterate->errors_known ? iterate->errors.max / iterate->extent : INFINITY;
-    if (steps > 0 && known <= ENOUGH) return known; /* no step will follow, and no residual is needed */
+    return steps > 0 && iterate->square && iterate->errors_known && iterate->errors.max / iterate->extent <= ENOUGH;
+}
+
+/* Residuals go straight into D, so that no second array of them is needed. */
+static double remaining_error(pia_iterate *iterate)
+{
     iterate->errors = pia_op_residual(iterate->op, iterate->points, &iterate->targets, iterate->adjust);
     iterate->errors_known = iterate->residual == NULL;
     return iterate->errors.max / iterate->extent;
@@ -65,7 +69,9 @@ static pia_status adjust(pia_iterate *iterate, void *state)
     direct *d = state;
     if (!iterate->square && iterate->normal == NULL)
         return pia_fail(iterate->context, PIA_E_ARGUMENT, "direct has no normal equations here; use cg");
-    double left = iterate->square ? remaining_error(iterate, d->steps) : remaining_gradient(iterate);
+    iterate->finished = is_settled(iterate, d->steps);
+    if (iterate->finished) return PIA_OK;
+    double left = iterate->square ? remaining_error(iterate) : remaining_gradient(iterate);
     iterate->finished = d->steps > 0 && (left <= ENOUGH || left > d->left / 4 || d->steps >= ENOUGH_STEPS);
     if (iterate->finished) return PIA_OK;
     pia_status status = solve(iterate, d->steps);
@@ -127,6 +133,8 @@ static pia_status step(pia_iterate *iterate, void *state)
 {
     direct *d = state;
     int done = 0;
+    iterate->finished = is_settled(iterate, d->steps);
+    if (iterate->finished) return PIA_OK;
     pia_status status = take_adjust(iterate);
     if (status == PIA_OK && iterate->square && d->steps == 0 && pia_windows_suit(iterate->op))
         status = step_by_windows(iterate, d, &done);
