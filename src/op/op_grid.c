@@ -201,7 +201,7 @@ static piece piece_of(const pass *p, pia_index first)
     return c;
 }
 
-static void write_points(const pass *p, const pia_lanes *difference, pia_lanes square, int count, pia_index at)
+PIA_INLINE void write_points(const pass *p, const pia_lanes *difference, pia_lanes square, int count, pia_index at)
 {
     for (int l = 0; l < count; l++)
         for (int d = 0; d < p->dim; d++) {
