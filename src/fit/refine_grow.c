@@ -94,7 +94,7 @@ static int can_interpolate(const pia_fit *fit)
 {
     if (fit->kind == PIA_SCATTERED || fit->has_holes) return 0;
     for (int d = 0; d < fit->directions; d++) {
-        if (fit->count[d] < 2 * fit->degree[d] + 3) return 0;
+        if (fit->count[d] <= fit->degree[d]) return 0;
         for (pia_index i = 1; i < fit->count[d]; i++)
             if (!(fit->parameter[d][i] > fit->parameter[d][i - 1])) return 0;
     }
