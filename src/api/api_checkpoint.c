@@ -177,10 +177,11 @@ static void sequence(walk *w, pia_fit *fit)
 static void rules(walk *w, pia_fit *fit)
 {
     pia_rules *r = &fit->solve.rules;
-    pia_index counts[4] = {r->iterations, r->trace_every, fit->options.measure_distance, fit->options.correct};
+    pia_index counts[5] = {r->iterations, r->trace_every, fit->options.measure_distance, fit->options.correct,
+                           fit->options.max_iterations};
     double v[8] = {r->tolerance,           r->change,         r->gradient,          r->time_limit,
                    fit->options.tolerance, fit->options.soft, fit->options.fairing, fit->seconds};
-    array(w, "rule_counts", PIA_SECTION_INDEX, counts, 4);
+    array(w, "rule_counts", PIA_SECTION_INDEX, counts, 5);
     array(w, "rules", PIA_SECTION_DOUBLE, v, 8);
     array(w, "method_numbers", PIA_SECTION_DOUBLE, fit->method_values.number, PIA_MAX_VALUES);
     array(w, "limiter_numbers", PIA_SECTION_DOUBLE, fit->limiter_values.number, PIA_MAX_VALUES);
@@ -196,6 +197,7 @@ static void rules(walk *w, pia_fit *fit)
     if (fit->tolerances != NULL || fit->axis_tolerances != NULL) r->keeps = pia_fit_keeps_tolerances;
     fit->options.measure_distance = (int)counts[2];
     fit->options.correct = counts[3];
+    fit->options.max_iterations = counts[4];
     fit->options.tolerance = v[4];
     fit->options.soft = v[5];
     fit->options.fairing = v[6];

@@ -52,7 +52,7 @@ static int set_rule(pia_fit *fit, const char *name, double number)
     if (strcmp(name, "tolerance") == 0)
         rules->tolerance = fit->options.tolerance = number;
     else if (strcmp(name, "max_iterations") == 0)
-        rules->iterations = (pia_index)number;
+        rules->iterations = fit->options.max_iterations = (pia_index)number;
     else if (strcmp(name, "stop_change") == 0)
         rules->change = number;
     else if (strcmp(name, "stop_gradient") == 0)

@@ -2,6 +2,8 @@
 #include "check.h"
 #include "problems.h"
 
+#include <unistd.h>
+
 #include "../memory/failing.h"
 
 enum { COUNT = 400 };
@@ -153,6 +155,35 @@ static void a_stepped_fit_ends_where_a_run_ends_and_follows_edits(void **state)
         for (int k = 0; k < 2; k++) assert_ok(context, pia_fit_move_point(fit[k], 0, moved));
     }
     for (int k = 0; k < 2; k++) pia_fit_close(fit[k]);
+    release(&c);
+}
+
+/* All rounds of weighing together, also where the count is given to a running fit or to one that was saved. */
+static void iterations_asked_for_later_are_all_that_run(void **state)
+{
+    static const char *const count[] = {"12", "30", "45"};
+    pia_context *context = *state;
+    cloud c = make_curve(0, 0.02);
+    pia_fit *fit;
+    pia_report report = {.struct_size = sizeof report};
+    char path[] = "/tmp/pia_robust_XXXXXX";
+    close(mkstemp(path));
+    c.options.robust = "tukey";
+    c.options.method = "lspia";
+    assert_ok(context, pia_fit_open(context, &c.data, &c.options, &fit));
+    for (int k = 0; k < 3; k++) {
+        assert_ok(context, pia_fit_set(fit, "max_iterations", count[k]));
+        assert_ok(context, pia_fit_run(fit, &report));
+        assert_int_equal(report.stop, PIA_STOP_ITERATIONS);
+        assert_int_equal(report.iterations, atoi(count[k]));
+        assert_ok(context, pia_fit_save(fit, path));
+        pia_fit_close(fit);
+        assert_ok(context, pia_fit_resume(context, path, &fit));
+        assert_ok(context, pia_fit_run(fit, &report));
+        assert_int_equal(report.iterations, atoi(count[k]));
+    }
+    pia_fit_close(fit);
+    unlink(path);
     release(&c);
 }
 
@@ -317,6 +348,7 @@ int main(void)
         cmocka_unit_test(exact_data_are_recovered_to_rounding),
         cmocka_unit_test(outliers_are_listed_by_their_rows),
         cmocka_unit_test(a_stepped_fit_ends_where_a_run_ends_and_follows_edits),
+        cmocka_unit_test(iterations_asked_for_later_are_all_that_run),
         cmocka_unit_test(grids_and_scattered_points_have_outliers_too),
         cmocka_unit_test(what_makes_no_sense_is_refused),
         cmocka_unit_test(thrown_fixes_of_a_gps_track_are_found),
