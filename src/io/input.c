@@ -67,6 +67,12 @@ static pia_status open_named(pia_context *context, const char *path, pia_input *
     return status;
 }
 
+/* Editors begin text with a byte order mark, which is no part of any format. */
+static void skip_mark(pia_input *input)
+{
+    if (input->end - input->begin >= 3 && memcmp(input->begin, "\xef\xbb\xbf", 3) == 0) input->begin += 3;
+}
+
 pia_status pia_input_open(pia_context *context, const char *path, pia_input *out)
 {
     if (path == NULL || *path == '\0')
@@ -74,9 +80,10 @@ pia_status pia_input_open(pia_context *context, const char *path, pia_input *out
     int standard = strcmp(path, "-") == 0;
     pia_input input = {.path = standard ? "standard input" : path};
     pia_status status = standard ? read_whole(context, STDIN_FILENO, &input) : open_named(context, path, &input);
-    if (status == PIA_OK)
+    if (status == PIA_OK) {
+        skip_mark(&input);
         *out = input;
-    else
+    } else
         pia_input_close(context, &input);
     return status;
 }
@@ -84,7 +91,7 @@ pia_status pia_input_open(pia_context *context, const char *path, pia_input *out
 void pia_input_close(pia_context *context, pia_input *input)
 {
     if (input->mapped)
-        (void)munmap(input->block, (size_t)(input->end - input->begin));
+        (void)munmap(input->block, (size_t)(input->end - (const char *)input->block));
     else
         pia_give(context, input->block);
     *input = (pia_input){0};

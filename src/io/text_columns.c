@@ -43,7 +43,9 @@ static pia_status choose_listed(pia_context *context, const pia_input *input, co
                                 pia_text_columns *columns)
 {
     for (;;) {
-        size_t length = strcspn(list, ",");
+        list += strspn(list, " \t");
+        size_t end = strcspn(list, ","), length = end;
+        while (length > 0 && pia_text_is_blank(list[length - 1])) length--;
         size_t shown = length < 40 ? length : 40;
         pia_index f = find_field(layout, list, length);
         if (f < 0) return refuse_column(context, input, layout, list, (int)shown);
@@ -51,8 +53,8 @@ static pia_status choose_listed(pia_context *context, const pia_input *input, co
             return pia_fail(context, PIA_E_ARGUMENT, "column '%.*s' is listed twice; list each column once", (int)shown, list);
         columns->slot[f] = columns->count;
         columns->field[columns->count++] = f;
-        if (list[length] == '\0') return PIA_OK;
-        list += length + 1;
+        if (list[end] == '\0') return PIA_OK;
+        list += end + 1;
     }
 }
 

@@ -1,3 +1,4 @@
+#include "number.h"
 #include "text.h"
 
 #include <string.h>
@@ -40,14 +41,22 @@ static int look_alike(const line_shape *a, const line_shape *b)
     return a->delimiter == b->delimiter && a->fields == b->fields && a->numbers > 0 && b->numbers > 0;
 }
 
-/* Every column that holds a number in `row` holds one in `line`: it is a row as well, and no header with a number in it. */
+/* A number, whole or with something behind it that makes it none: "0x10", "1.2.3". */
+static int begins_as_number(const pia_text_field *field)
+{
+    double value;
+    return field->begin < field->end && pia_number_parse(field->begin, field->end, &value) != NULL;
+}
+
+/* Every column that holds a number in `row` holds one in `line`, if a damaged one: it is a row as well, which must not be lost as a
+ * header with a number in it. */
 static int is_like_row(const pia_text_line *line, const pia_text_line *row, char delimiter)
 {
     const char *p = line->begin, *q = row->begin;
     pia_text_field field, other;
     double value;
     while (pia_text_next_field(line, delimiter, &p, &field) && pia_text_next_field(row, delimiter, &q, &other))
-        if (pia_text_number(&other, &value) && !pia_text_number(&field, &value)) return 0;
+        if (pia_text_number(&other, &value) && !begins_as_number(&field)) return 0;
     return 1;
 }
 
@@ -70,10 +79,10 @@ static int is_count(const line_shape *shape, const pia_text_line *line, const ch
 }
 
 /* The first row; NULL when no line holds a number. A run is a stretch of lines that look alike and hold a number each. */
-static const char *find_first_row(const pia_input *input, const char *begin, line_shape *row)
+static const char *find_first_row(const pia_input *input, line_shape *row)
 {
     line_shape previous = {0}, labelled = {0};
-    const char *run = NULL, *labelled_run = NULL, *p = begin;
+    const char *run = NULL, *labelled_run = NULL, *p = input->begin;
     pia_text_line line, first, next;
     for (int i = 0; i < SEARCHED_LINES && next_content(p, input->end, &line); i++, p = line.next) {
         line_shape shape = shape_of(&line);
@@ -111,10 +120,10 @@ static pia_status refuse_several_numbers(pia_context *context, const pia_input *
     return PIA_OK;
 }
 
-static pia_status refuse_without_rows(pia_context *context, const pia_input *input, const char *begin)
+static pia_status refuse_without_rows(pia_context *context, const pia_input *input)
 {
     pia_text_line line;
-    const char *p = begin;
+    const char *p = input->begin;
     for (int i = 0; i < SEARCHED_LINES && next_content(p, input->end, &line); i++, p = line.next) {
         pia_status status = refuse_several_numbers(context, input, &line, guess_delimiter(&line));
         if (status != PIA_OK) return status;
@@ -148,10 +157,10 @@ static pia_index count_fields(const pia_text_line *line, char delimiter)
 }
 
 /* The last line before the data, if it has one name a field; else the last comment that has. */
-static void find_names(const pia_input *input, const char *begin, pia_text_layout *layout)
+static void find_names(const pia_input *input, pia_text_layout *layout)
 {
     pia_text_line header = {0}, comment = {0};
-    const char *p = begin;
+    const char *p = input->begin;
     while (p < layout->data) {
         pia_text_line line = pia_text_line_at(p, input->end);
         if (line.begin == layout->data) break;
@@ -185,14 +194,12 @@ pia_status pia_text_find_layout(pia_context *context, const pia_input *input, pi
 {
     pia_status status = check_text(context, input);
     if (status != PIA_OK) return status;
-    int marked = input->end - input->begin >= 3 && memcmp(input->begin, "\xef\xbb\xbf", 3) == 0;
-    const char *begin = input->begin + (marked ? 3 : 0);
     line_shape row;
-    pia_text_layout layout = {.data = find_first_row(input, begin, &row)};
-    if (layout.data == NULL) return refuse_without_rows(context, input, begin);
+    pia_text_layout layout = {.data = find_first_row(input, &row)};
+    if (layout.data == NULL) return refuse_without_rows(context, input);
     layout.delimiter = row.delimiter;
     layout.field_count = row.fields;
-    find_names(input, begin, &layout);
+    find_names(input, &layout);
     layout.numeric = pia_take_zero(context, layout.field_count, 1);
     if (layout.numeric == NULL) return pia_take_status(context, layout.field_count, 1);
     status = sample_columns(context, input, &layout);

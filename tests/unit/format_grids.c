@@ -32,6 +32,31 @@ static void every_kind_of_grey_map_is_read(void **state)
     assert_grid(*state, "c.pgm", 1, 2, wide);
 }
 
+/* Editors begin text with it, whatever the format. */
+static void a_byte_order_mark_is_passed_over(void **state)
+{
+    static const double expected[] = {0, 0, 1, 1, 0, 20};
+    static const struct {
+        const char *name, *text;
+    } file[] = {{"m.pgm", "\xef\xbb\xbf"
+                          "P2 2 1 255 1 20"},
+                {"m.asc", "\xef\xbb\xbf"
+                          "ncols 2\nnrows 1\nxllcenter 0\nyllcenter 0\ncellsize 1\n1 20\n"}};
+    for (int k = 0; k < 2; k++) {
+        make_text(file[k].name, file[k].text);
+        assert_grid(*state, file[k].name, 1, 2, expected);
+    }
+    make_text("bad.asc", "\xef\xbb\xbf"
+                         "ncols 2\nnrows 1\ncellsize x\n");
+    assert_refused(*state, "bad.asc", NULL, PIA_E_FORMAT, "bad.asc:3: ");
+    make_text("m.obj", "\xef\xbb\xbf"
+                       "v 1 2 3\n");
+    pia_points_info info;
+    pia_points *points = read_points(*state, "m.obj", NULL, &info);
+    assert_int_equal(info.count[0], 1);
+    pia_points_destroy(points);
+}
+
 static void bad_grey_maps_are_refused(void **state)
 {
     static const struct {
@@ -148,13 +173,10 @@ static void curves_are_polylines_and_surfaces_meshes(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        IN_FOLDER(every_kind_of_grey_map_is_read),
-        IN_FOLDER(bad_grey_maps_are_refused),
-        IN_FOLDER(ascii_grids_lie_where_their_header_says),
-        IN_FOLDER(bad_ascii_grids_are_refused),
-        IN_FOLDER(terrain_files_are_read_as_their_page_says),
-        IN_FOLDER(vertices_of_a_mesh_are_points),
-        IN_FOLDER(curves_are_polylines_and_surfaces_meshes),
+        IN_FOLDER(every_kind_of_grey_map_is_read), IN_FOLDER(a_byte_order_mark_is_passed_over),
+        IN_FOLDER(bad_grey_maps_are_refused),      IN_FOLDER(ascii_grids_lie_where_their_header_says),
+        IN_FOLDER(bad_ascii_grids_are_refused),    IN_FOLDER(terrain_files_are_read_as_their_page_says),
+        IN_FOLDER(vertices_of_a_mesh_are_points),  IN_FOLDER(curves_are_polylines_and_surfaces_meshes),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

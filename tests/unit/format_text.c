@@ -43,6 +43,7 @@ static void headers_titles_comments_and_marks_are_skipped(void **state)
                                        "1,2 # a\n#b\n3,4#c\n#d",
                                        "\"x, m\",\"y\"\n\"1\",\"2\"\n\"3\", \"4\"\n",
                                        "x;y\r\n1;2\r\n3;4",
+                                       "2theta,intensity\n1,2\n3,4\n",
                                        "t,1\n1,2\n3,4\n"};
     for (size_t i = 0; i < sizeof text / sizeof *text; i++) assert_reads(*state, text[i], 2, 2, expected);
 }
@@ -82,8 +83,8 @@ static void columns_are_chosen_by_name_or_number(void **state)
     pia_points_options_init(&options);
     pia_points_info info;
     make_text("named.csv", "t,label,x,2\n1,a,2,3\n4,b,5,6\n");
-    static const char *const list[] = {"x,t", "3,1", "x,1"};
-    for (int i = 0; i < 3; i++) {
+    static const char *const list[] = {"x,t", "3,1", "x,1", " x , t\t"};
+    for (int i = 0; i < 4; i++) {
         options.columns = list[i];
         pia_points *points = read_points(*state, "named.csv", &options, &info);
         assert_int_equal(info.dim, 2);
@@ -134,6 +135,8 @@ static void bad_rows_are_refused_with_their_line(void **state)
         {"1,2\n3,abc\n", "bad.csv:2: field 2 is 'abc', not a number"},
         {"1,2\n3,4x\n", "bad.csv:2: field 2 is '4x', not a number"},
         {"1,2\n3,0x10\n", "bad.csv:2: field 2 is '0x10', not a number"},
+        {"0x10,2\n3,4\n", "bad.csv:1: field 1 is '0x10', not a number"}, /* a damaged row is no header */
+        {"1 2.3.4\n3 4\n", "bad.csv:1: field 2 is '2.3.4', not a number"},
         {"1,2\n3,\n", "bad.csv:2: field 2 is empty"},
         {"1,2\n3,nan\n", "bad.csv:2: field 2 is 'nan', not a finite number"},
         {"1,2\r-inf,4\r", "bad.csv:2: field 1 is '-inf', not a finite number"},
