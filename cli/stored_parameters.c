@@ -16,20 +16,38 @@ const double *grid_parameters(struct session *session, const double *u, const do
     return pairs;
 }
 
-static int same_row(const pia_points_info *points, pia_index i, pia_index j)
+/* How far apart two rows may be that are one point for a fit: the end of a closed curve may miss its start by rounding. */
+static double reach_of(const pia_points_info *points)
 {
-    const double *row = points->points;
-    return memcmp(row + i * points->dim, row + j * points->dim, (size_t)points->dim * sizeof *row) == 0;
+    double square = 0;
+    for (int d = 0; d < points->dim; d++) {
+        double low = INFINITY, high = -INFINITY;
+        for (pia_index i = 0; i < points->count[0] * points->count[1]; i++) {
+            low = fmin(low, points->points[i * points->dim + d]);
+            high = fmax(high, points->points[i * points->dim + d]);
+        }
+        square += (high - low) * (high - low);
+    }
+    return 1e-14 * sqrt(square);
+}
+
+static int same_row(const pia_points_info *points, pia_index i, pia_index j, double reach)
+{
+    const double *a = points->points + i * points->dim, *b = points->points + j * points->dim;
+    double square = 0;
+    for (int d = 0; d < points->dim; d++) square += isnan(a[d]) && isnan(b[d]) ? 0 : (a[d] - b[d]) * (a[d] - b[d]);
+    return sqrt(square) <= reach;
 }
 
 /* Rows that a fit did not use take the parameter of the row that they repeat: the one before, or the first where a curve is closed.
  * Returns 0 when a row repeats neither. A row without parameter is NAN. */
 static int fill_repeated(const pia_points_info *points, int width, double *parameter)
 {
+    double reach = reach_of(points);
     for (pia_index i = 0; i < points->count[0]; i++) {
         if (!isnan(parameter[i * width])) continue;
-        pia_index same = i && same_row(points, i, i - 1) ? i - 1 : 0;
-        if (isnan(parameter[same * width]) || !same_row(points, i, same)) return 0;
+        pia_index same = i && same_row(points, i, i - 1, reach) ? i - 1 : 0;
+        if (isnan(parameter[same * width]) || !same_row(points, i, same, reach)) return 0;
         memcpy(parameter + i * width, parameter + same * width, (size_t)width * sizeof *parameter);
     }
     return 1;
@@ -51,8 +69,9 @@ static const double *parameters_by_row(struct session *session, const pia_points
 static int repeats_line(const pia_points_info *points, int direction)
 {
     const pia_index *count = points->count, step = direction ? count[1] : 1, last = (count[direction] - 1) * (direction ? 1 : count[1]);
+    double reach = reach_of(points);
     for (pia_index k = 0; k < count[1 - direction]; k++)
-        if (!same_row(points, k * step, k * step + last)) return 0;
+        if (!same_row(points, k * step, k * step + last, reach)) return 0;
     return 1;
 }
 

@@ -93,18 +93,24 @@ static pia_status compute(pia_fit *fit)
                                          fit->parameter[0]);
 }
 
+/* By value: 0 and -0 are one place. Holes are alike. */
+static int equal_points(const pia_fit *fit, pia_index row, pia_index other)
+{
+    const double *a = fit->points + row * fit->dim, *b = fit->points + other * fit->dim;
+    for (int d = 0; d < fit->dim; d++)
+        if (a[d] != b[d] && !(isnan(a[d]) && isnan(b[d]))) return 0;
+    return 1;
+}
+
 /* Equal points one after the other, for rules whose parameters would not be equal there (uniform) as well. */
 static pia_status drop_equal_points(pia_fit *fit)
 {
-    size_t bytes = (size_t)fit->dim * sizeof(double);
     pia_index repeats = 0;
-    for (pia_index i = 1; i < fit->rows; i++)
-        repeats += memcmp(fit->points + i * fit->dim, fit->points + (i - 1) * fit->dim, bytes) == 0;
+    for (pia_index i = 1; i < fit->rows; i++) repeats += equal_points(fit, i, i - 1);
     if (repeats == 0) return PIA_OK;
     unsigned char *keep = pia_take(fit->context, fit->rows, 1);
     if (keep == NULL) return PIA_E_MEMORY;
-    for (pia_index i = 0; i < fit->rows; i++)
-        keep[i] = i == 0 || memcmp(fit->points + i * fit->dim, fit->points + (i - 1) * fit->dim, bytes) != 0;
+    for (pia_index i = 0; i < fit->rows; i++) keep[i] = i == 0 || !equal_points(fit, i, i - 1);
     pia_status status = pia_fit_drop_rows(fit, keep);
     pia_give(fit->context, keep);
     if (status == PIA_OK) pia_fit_note_add(fit, "%lld rows repeat the point before them and were dropped", (long long)repeats);
@@ -150,7 +156,7 @@ static pia_status separate(pia_fit *fit, int direction)
         keep[i] = i == 0 || t[i] > t[i - 1];
         for (pia_index j = 0; !keep[i] && j < other && status == PIA_OK; j++) {
             pia_index at = direction == 0 ? i * other + j : j * lines + i, before = direction == 0 ? at - other : at - 1;
-            if (memcmp(fit->points + at * fit->dim, fit->points + before * fit->dim, (size_t)fit->dim * sizeof(double)) != 0)
+            if (!equal_points(fit, at, before))
                 status = pia_fail(
                     fit->context, PIA_E_DATA,
                     "parameters %lld and %lld are equal (%.17g) but their points differ; least squares (--control) can fit them",
