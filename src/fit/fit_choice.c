@@ -5,9 +5,9 @@
 #include <math.h>
 #include <string.h>
 
-/* Fairing of scattered points that are refined: little beside what their deviations feel, enough to keep what they do not hold near
- * them. */
-static const double BRIDGING = 1e-3;
+/* Fairing where knots are found among points with gaps: little beside what their deviations feel, enough to keep what they do not hold
+ * near them. Grids, whose knots cannot come closer than their lines, feel more of it. */
+static const double BRIDGING = 1e-3, GRID_BRIDGING = 1e-5;
 
 static void copy_name(char *to, size_t size, const char *name)
 {
@@ -132,11 +132,21 @@ static const char *automatic(pia_fit *fit)
     return "direct";
 }
 
+/* Whether knots may come to lie where no point counts. */
+static int may_have_gaps(const pia_fit *fit)
+{
+    if (fit->kind == PIA_SCATTERED || fit->has_holes) return 1;
+    for (pia_index row = 0; fit->weights != NULL && row < fit->rows; row++)
+        if (fit->weights[row] == 0) return 1;
+    return 0;
+}
+
 static pia_status check_fairing(pia_fit *fit)
 {
-    if (fit->refining && fit->kind == PIA_SCATTERED && fit->options.fairing == 0 && fit->degree[0] + fit->degree[1] > 2) {
-        fit->options.fairing = BRIDGING;
-        pia_fit_note_add(fit, "method: fairing %g, which bridges regions without points", BRIDGING);
+    int bends = fit->degree[0] > 1 || (fit->directions == 2 && fit->degree[1] > 1);
+    if (fit->refining && fit->options.fairing == 0 && bends && may_have_gaps(fit)) {
+        fit->options.fairing = fit->kind == PIA_GRID ? GRID_BRIDGING : BRIDGING;
+        pia_fit_note_add(fit, "method: fairing %g, which bridges regions without points", fit->options.fairing);
     }
     if (!(fit->options.fairing > 0)) return PIA_OK;
     if (fit->square || pia_fit_is_grouped(fit))
@@ -242,14 +252,17 @@ static pia_status choose_placement(pia_fit *fit)
     const char *name = fit->options.placement;
     if (fit->options.start != NULL || fit->options.knots[0] != NULL) {
         if (name != NULL && strcmp(name, "auto") != 0)
-            return pia_fail(fit->context, PIA_E_ARGUMENT, "knots are given, so they cannot also be placed by \"%s\"", name);
+            return pia_fail(fit->context, PIA_E_ARGUMENT, "knots are given, so they cannot also be placed by \"%s\"; leave one out",
+                            name);
         return PIA_OK;
     }
     if (name == NULL || strcmp(name, "auto") == 0) name = automatic_placement(fit);
     fit->placement = pia_place_find(name);
     if (fit->placement == NULL) return unknown(fit, "placement", name);
-    if (fit->placement->by_curvature &&
-        (fit->square || fit->kind == PIA_SCATTERED || (fit->placement->adds_lines && fit->directions == 1)))
+    if (fit->kind == PIA_SCATTERED && strcmp(name, "uniform") != 0)
+        return pia_fail(fit->context, PIA_E_ARGUMENT,
+                        "knots %s are for curves and grids; scattered points take uniform ones, or knots that are given", name);
+    if (fit->placement->by_curvature && (fit->square || (fit->placement->adds_lines && fit->directions == 1)))
         return pia_fail(fit->context, PIA_E_ARGUMENT, "knots %s are for least squares and epia%s; use average or lsq", name,
                         fit->placement->adds_lines ? " of grids" : " of curves and grids");
     if (strcmp(name, "pia2004") != 0) return PIA_OK;
@@ -301,7 +314,8 @@ pia_status pia_fit_choose(pia_fit *fit)
                               "parametrization %s is not one of scattered points; there are auto, xy, plane, cylinder, sphere", name);
     }
     if (name != NULL && pia_cloud_find(name) != NULL)
-        return pia_fail(fit->context, PIA_E_ARGUMENT, "parametrization %s is one of scattered points (--surface)", name);
+        return pia_fail(fit->context, PIA_E_ARGUMENT, "parametrization %s is one of scattered points; take another, or say --surface",
+                        name);
     fit->parametrization = pia_param_find(name != NULL ? name : "chord");
     return fit->parametrization != NULL ? PIA_OK : unknown(fit, "parametrization", name);
 }
