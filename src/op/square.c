@@ -51,7 +51,10 @@ static pia_status solve_bordered(pia_context *context, const pia_equations *e, d
             else if (i >= m)
                 s[(i - m) * q + (j - m)] += entry;
             else
-                status = PIA_E_INTERNAL;
+                status = pia_fail(context, PIA_E_DATA,
+                                  "row %lld of the collocation matrix does not reach its control point: the knots do not suit the "
+                                  "parameters (Schoenberg-Whitney); place knots by averaging",
+                                  (long long)i);
         }
     if (status == PIA_OK) status = pia_band_plu_factor(context, a11, m, q, q, &plu);
     if (status == PIA_OK) {
