@@ -335,7 +335,8 @@ typedef struct pia_order_report {
 pia_status pia_points_order(pia_context *context, const double *points, pia_index count, int dim, const char *how, pia_index *order,
                             pia_order_report *report);
 
-/* A fit that is stepped, read and edited. Copies the data; the options' arrays need not outlive the call. */
+/* A fit that is stepped, read and edited. Copies the data; the options' arrays need not outlive the call. Where memory runs out in the
+ * middle of a step or an edit, the fit answers PIA_E_MEMORY from then on, and can only be closed. */
 pia_status pia_fit_open(pia_context *context, const pia_data *data, const pia_fit_options *options, pia_fit **out);
 /* `iterations` updates, fewer when a stop rule fires. report may be NULL. */
 pia_status pia_fit_step(pia_fit *fit, pia_index iterations, pia_report *report);

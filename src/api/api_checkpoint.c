@@ -400,7 +400,8 @@ pia_status pia_fit_save(pia_fit *fit, const char *path)
 {
     pia_output *output;
     if (path == NULL) return pia_fail(fit->context, PIA_E_ARGUMENT, "no path to save the fit to");
-    pia_status status = pia_output_open(fit->context, path, &output);
+    pia_status status = pia_fit_whole(fit);
+    if (status == PIA_OK) status = pia_output_open(fit->context, path, &output);
     if (status != PIA_OK) return status;
     pia_checkpoint_writer writer;
     walk w = {fit->context, &writer, NULL, PIA_OK};

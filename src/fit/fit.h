@@ -109,6 +109,7 @@ struct pia_fit {
     int pinned;                      /* 1: the ends of the curve are the first and the last row */
     pia_index refined_until;         /* of a refinement: the iteration at which it pauses */
     int paused;                      /* 1: it did, with work left */
+    int lost;                        /* 1: memory ran out in the middle of a change */
     pia_watch watch;                 /* of a refinement of scattered points, across its pauses */
     double *relaxed;                 /* of a refinement: where the last search by relaxation came to, [rows x dim]; NULL: none yet */
     double relaxation;               /* rows passed over by all of them, which is limited */
@@ -219,6 +220,10 @@ void pia_fit_unbind(pia_fit *fit);
 void pia_fit_constraints_close(pia_fit *fit);
 /* iterate.constraint_error of the current control points. */
 void pia_fit_measure_constraints(pia_fit *fit);
+/* PIA_E_MEMORY for a fit that a change has left in pieces, because memory ran out. */
+pia_status pia_fit_whole(const pia_fit *fit);
+/* The outcome of a change, which is remembered where it may have left pieces. */
+pia_status pia_fit_changed(pia_fit *fit, pia_status status);
 /* After an edit: the loop starts over from the current iterate. */
 pia_status pia_fit_restart(pia_fit *fit);
 

@@ -194,6 +194,7 @@ static int knows_constraints(const pia_fit *fit)
 
 static pia_status check_knows(pia_fit *fit)
 {
+    if (pia_fit_whole(fit) != PIA_OK) return PIA_E_MEMORY;
     if (!fit->square && knows_constraints(fit)) return PIA_OK;
     return pia_fail(fit->context, PIA_E_ARGUMENT,
                     "method %s knows no constraints here; use clspia, clspia-pcg or direct with fewer control "
@@ -211,7 +212,10 @@ static pia_status settle(pia_fit *fit, pia_status status, pia_index before, pia_
         return PIA_OK;
     }
     while (fit->constraint_count > before) release_value(fit, &fit->constraint[--fit->constraint_count]);
-    if (pia_fit_bind(fit) == PIA_OK) pia_fit_restart(fit);
+    if (pia_fit_bind(fit) == PIA_OK)
+        pia_fit_restart(fit);
+    else
+        fit->lost = 1;
     return status;
 }
 
@@ -236,9 +240,10 @@ pia_status pia_fit_join(pia_fit *fit, const pia_join *join, pia_index *first_id,
 
 pia_status pia_fit_release(pia_fit *fit, pia_index id)
 {
+    if (pia_fit_whole(fit) != PIA_OK) return PIA_E_MEMORY;
     if (id < 0 || id >= fit->constraint_count || fit->constraint[id].released)
         return pia_fail(fit->context, PIA_E_ARGUMENT, "constraint %lld is not there to be released", (long long)id);
     fit->constraint[id].released = 1;
     pia_status status = pia_fit_bind(fit);
-    return status == PIA_OK ? pia_fit_restart(fit) : status;
+    return pia_fit_changed(fit, status == PIA_OK ? pia_fit_restart(fit) : status);
 }

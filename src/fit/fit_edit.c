@@ -7,6 +7,18 @@
 #include <math.h>
 #include <string.h>
 
+pia_status pia_fit_whole(const pia_fit *fit)
+{
+    if (!fit->lost && fit->solve.ready) return PIA_OK;
+    return pia_fail(fit->context, PIA_E_MEMORY, "memory ran out while the fit was changed; close it, or go on from a checkpoint");
+}
+
+pia_status pia_fit_changed(pia_fit *fit, pia_status status)
+{
+    if (status == PIA_E_MEMORY) fit->lost = 1;
+    return status;
+}
+
 /* After an edit the errors are unknown, and history of accelerated methods no longer fits the problem. */
 pia_status pia_fit_restart(pia_fit *fit)
 {
@@ -70,6 +82,7 @@ static int set_rule(pia_fit *fit, const char *name, double number)
 pia_status pia_fit_set(pia_fit *fit, const char *name, const char *value)
 {
     if (name == NULL || value == NULL) return pia_fail(fit->context, PIA_E_ARGUMENT, "name or value is NULL");
+    if (pia_fit_whole(fit) != PIA_OK) return PIA_E_MEMORY;
     double number;
     const char *end = pia_number_parse(value, value + strlen(value), &number);
     if (end != NULL && *end == '\0' && number >= 0 && number <= 9e18 && set_rule(fit, name, number)) return PIA_OK;
@@ -89,6 +102,7 @@ static pia_index used_row(const pia_fit *fit, pia_index data_row)
 
 static pia_status find_row(pia_fit *fit, pia_index data_row, pia_index *row)
 {
+    if (pia_fit_whole(fit) != PIA_OK) return PIA_E_MEMORY;
     *row = used_row(fit, data_row);
     if (*row >= 0) return PIA_OK;
     return pia_fail(fit->context, PIA_E_ARGUMENT, "data row %lld is not part of this fit; it has %lld rows%s", (long long)data_row,
@@ -103,7 +117,7 @@ pia_status pia_fit_move_point(pia_fit *fit, pia_index data_row, const double *po
     for (int d = 0; d < fit->dim; d++)
         if (point == NULL || !isfinite(point[d])) return pia_fail(fit->context, PIA_E_DATA, "the new point is not finite");
     memcpy(fit->own_points + row * fit->dim, point, (size_t)fit->dim * sizeof(double));
-    return refresh(fit, row);
+    return pia_fit_changed(fit, refresh(fit, row));
 }
 
 /* Weights of 1 where the fit had none. */
@@ -128,7 +142,7 @@ pia_status pia_fit_weigh_point(pia_fit *fit, pia_index data_row, double weight)
     if (status == PIA_OK) status = take_weights(fit);
     if (status != PIA_OK) return status;
     fit->weights[row] = weight;
-    return weighted ? refresh(fit, row) : pia_fit_reassemble(fit);
+    return pia_fit_changed(fit, weighted ? refresh(fit, row) : pia_fit_reassemble(fit));
 }
 
 /* A row between the sorted ones of a curve; scattered rows go to the end. */
@@ -206,21 +220,23 @@ pia_status pia_fit_add_points(pia_fit *fit, const pia_data *more)
 {
     pia_data data;
     pia_data_init(&data);
-    pia_status status = pia_options_read(fit->context, "pia_data", &data, sizeof data, more);
+    pia_status status = pia_fit_whole(fit);
+    if (status == PIA_OK) status = pia_options_read(fit->context, "pia_data", &data, sizeof data, more);
     if (status == PIA_OK) status = check_more(fit, &data);
     if (status == PIA_OK && data.weights != NULL) status = take_weights(fit);
     if (status == PIA_OK) status = make_room(fit, data.count[0]);
-    if (status != PIA_OK) return status;
+    if (status != PIA_OK) return pia_fit_changed(fit, status);
     pia_index wide = fit->kind == PIA_SCATTERED ? 2 : 1;
     for (pia_index i = 0; i < data.count[0]; i++)
         insert_row(fit, data.points + i * fit->dim, data.parameters + i * wide, data.weights != NULL ? data.weights[i] : 1,
                    fit->given + i);
     fit->given += data.count[0];
-    return pia_fit_reassemble(fit);
+    return pia_fit_changed(fit, pia_fit_reassemble(fit));
 }
 
 pia_status pia_fit_insert_knot(pia_fit *fit, int direction, double knot)
 {
+    if (pia_fit_whole(fit) != PIA_OK) return PIA_E_MEMORY;
     if (fit->square || fit->sequence != NULL)
         return pia_fail(fit->context, PIA_E_ARGUMENT,
                         "knots of an interpolation and of control parameters follow the data; use least squares");
@@ -237,11 +253,12 @@ pia_status pia_fit_insert_knot(pia_fit *fit, int direction, double knot)
     if (status == PIA_OK) status = pia_fit_bind(fit);
     pia_model_destroy(now);
     pia_model_destroy(finer);
-    return status == PIA_OK ? pia_fit_restart(fit) : status;
+    return pia_fit_changed(fit, status == PIA_OK ? pia_fit_restart(fit) : status);
 }
 
 pia_status pia_fit_freeze(pia_fit *fit, const pia_index *control, pia_index count, int frozen)
 {
+    if (pia_fit_whole(fit) != PIA_OK) return PIA_E_MEMORY;
     for (pia_index i = 0; i < count; i++)
         if (control[i] < 0 || control[i] >= fit->op->fulls)
             return pia_fail(fit->context, PIA_E_ARGUMENT, "control point %lld does not exist; there are 0 to %lld",
@@ -250,5 +267,5 @@ pia_status pia_fit_freeze(pia_fit *fit, const pia_index *control, pia_index coun
     for (pia_index i = 0; i < count && status == PIA_OK; i++)
         status = pia_op_freeze(fit->op, pia_op_unknown(fit->op, control[i]), frozen);
     if (status != PIA_OK) return status;
-    return fit->directions == 2 && fit->normal != NULL ? pia_fit_reassemble(fit) : pia_fit_restart(fit);
+    return pia_fit_changed(fit, fit->directions == 2 && fit->normal != NULL ? pia_fit_reassemble(fit) : pia_fit_restart(fit));
 }

@@ -177,6 +177,7 @@ static pia_status model_of(pia_fit *fit, pia_status (*make)(pia_fit *fit, pia_mo
 pia_status pia_fit_model(pia_fit *fit, pia_model **out)
 {
     if (out == NULL) return pia_fail(fit->context, PIA_E_ARGUMENT, "out is NULL");
+    if (pia_fit_whole(fit) != PIA_OK) return PIA_E_MEMORY;
     pia_iterate_measure(&fit->iterate);
     return model_of(fit, pia_fit_bare_model, out);
 }

@@ -15,12 +15,14 @@ static pia_status step(pia_fit *fit, pia_index iterations)
 pia_status pia_fit_step(pia_fit *fit, pia_index iterations, pia_report *report)
 {
     if (iterations < 0) return pia_fail(fit->context, PIA_E_ARGUMENT, "%lld iterations are not a count", (long long)iterations);
+    if (pia_fit_whole(fit) != PIA_OK) return PIA_E_MEMORY;
+    if (fit->refining) pia_solve_go_on(&fit->solve);
     int refine = fit->refining && fit->solve.stop == PIA_STOP_NONE;
     pia_status status = refine ? pia_refine(fit, iterations) : step(fit, iterations);
     if (status == PIA_OK && pia_fit_wants_correction(fit)) status = pia_fit_correct(fit);
     if (status == PIA_OK && fit->solve.stop != PIA_STOP_NONE) pia_fit_conclude(fit);
     if (status == PIA_OK && report != NULL) status = pia_fit_report(fit, report);
-    return status;
+    return pia_fit_changed(fit, status);
 }
 
 pia_status pia_fit_run(pia_fit *fit, pia_report *report)
@@ -100,6 +102,7 @@ void pia_fit_tell(pia_fit *fit, pia_report *out)
 
 pia_status pia_fit_report(pia_fit *fit, pia_report *report)
 {
+    if (pia_fit_whole(fit) != PIA_OK) return PIA_E_MEMORY;
     pia_iterate_measure(&fit->iterate);
     pia_fit_tell(fit, report);
     return PIA_OK;
@@ -121,6 +124,7 @@ const char *pia_fit_note(const pia_fit *fit, pia_index index)
 pia_status pia_fit_residuals(pia_fit *fit, double *out)
 {
     if (out == NULL) return pia_fail(fit->context, PIA_E_ARGUMENT, "out is NULL");
+    if (pia_fit_whole(fit) != PIA_OK) return PIA_E_MEMORY;
     pia_op_residual(fit->op, fit->iterate.points, &fit->iterate.targets, out);
     return PIA_OK;
 }

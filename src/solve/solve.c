@@ -61,6 +61,7 @@ pia_status pia_solve_begin(pia_solve *solve, const pia_values *method_values, co
     if (status == PIA_OK && solve->method->begin != NULL) status = solve->method->begin(iterate, method_values, solve->method_state);
     if (status == PIA_OK && solve->limiter != NULL && solve->limiter->begin != NULL)
         status = solve->limiter->begin(iterate, limiter_values, solve->limiter_state);
+    solve->ready = status == PIA_OK;
     return status;
 }
 
@@ -74,6 +75,7 @@ static void end_states(pia_solve *solve)
     pia_give(iterate->context, solve->safe);
     solve->method_state = solve->limiter_state = NULL;
     solve->safe = NULL;
+    solve->ready = 0;
 }
 
 pia_status pia_solve_restart(pia_solve *solve, const pia_values *method_values, const pia_values *limiter_values)
@@ -233,14 +235,19 @@ static pia_status iterate_once(pia_solve *solve)
     return status == PIA_OK && solve->revise != NULL ? solve->revise(iterate) : status;
 }
 
+void pia_solve_go_on(pia_solve *solve)
+{
+    if (solve->stop == PIA_STOP_ITERATIONS || solve->stop == PIA_STOP_CANCELLED || solve->stop == PIA_STOP_TIME)
+        solve->stop = PIA_STOP_NONE;
+}
+
 pia_status pia_solve_step(pia_solve *solve, pia_index iterations)
 {
     pia_iterate *iterate = solve->iterate;
     pia_index goal = iterations > INT64_MAX - iterate->iteration ? INT64_MAX : iterate->iteration + iterations;
     pia_status status = PIA_OK;
     double start = pia_seconds() - solve->seconds;
-    if (solve->stop == PIA_STOP_ITERATIONS || solve->stop == PIA_STOP_CANCELLED || solve->stop == PIA_STOP_TIME)
-        solve->stop = PIA_STOP_NONE;
+    pia_solve_go_on(solve);
     while (status == PIA_OK && solve->stop == PIA_STOP_NONE && iterate->iteration < goal) {
         status = iterate_once(solve);
         solve->seconds = pia_seconds() - start;

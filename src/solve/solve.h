@@ -45,6 +45,7 @@ typedef struct pia_solve {
     int standing;              /* the last window changed the error by less than a hundredth */
     pia_index first_iteration; /* where it began, or was last edited: the count that max_iterations limits starts here */
     int begun;
+    int ready; /* 1: method and limiter have begun; 0: memory ran out as they did */
     /* NULL, or what may change the problem after an update (insert a knot), while R, errors and adjust_max are still those of the
      * iterate before it. It calls pia_solve_restart where it did. */
     pia_status (*revise)(pia_iterate *iterate);
@@ -54,6 +55,8 @@ typedef struct pia_solve {
 pia_status pia_solve_begin(pia_solve *solve, const pia_values *method_values, const pia_values *limiter_values);
 /* At most `iterations` updates; fewer when a rule fires. Ends with solve->stop, PIA_STOP_NONE when the count ran out first. */
 pia_status pia_solve_step(pia_solve *solve, pia_index iterations);
+/* Forgets a stop that came from outside: a count, the clock, the callback. They speak again where they still hold. */
+void pia_solve_go_on(pia_solve *solve);
 /* A row of the trace for the current iterate, whose errors are known; nothing when the last row is its row already. */
 pia_status pia_solve_trace(pia_solve *solve);
 /* Before going on after an edit: forgets the stop reason and what was known of the errors; history of accelerated methods starts anew.

@@ -93,9 +93,51 @@ static void a_search_for_knots_keeps_the_model_it_has(void **state)
     pia_context_destroy(context);
 }
 
+static int stop_once(void *user, const pia_report *so_far)
+{
+    (void)so_far;
+    return ++*(int *)user == 3;
+}
+
+/* What stopped from outside does not bind the next call: knots are looked for on. */
+static void a_refinement_goes_on_after_it_was_cancelled(void **state)
+{
+    (void)state;
+    pia_context *context;
+    pia_data data;
+    pia_fit_options options;
+    pia_fit *fit;
+    pia_report report = {.struct_size = sizeof report};
+    double points[400];
+    int calls = 0;
+    for (int i = 0; i < 200; i++) {
+        points[2 * i] = i;
+        points[2 * i + 1] = sin(0.2 * i) + 0.3 * sin(1.7 * i);
+    }
+    pia_data_init(&data);
+    pia_fit_options_init(&options);
+    data.points = points;
+    data.count[0] = 200;
+    data.dim = 2;
+    options.tolerance = 0.01;
+    options.progress = stop_once;
+    options.user = &calls;
+    assert_ok(NULL, pia_context_create(NULL, &context));
+    assert_ok(context, pia_fit_open(context, &data, &options, &fit));
+    assert_ok(context, pia_fit_run(fit, &report));
+    assert_int_equal(report.stop, PIA_STOP_CANCELLED);
+    assert_int_equal(report.reached, 0);
+    assert_ok(context, pia_fit_run(fit, &report));
+    assert_int_equal(report.stop, PIA_STOP_TOLERANCE);
+    assert_int_equal(report.reached, 1);
+    pia_fit_close(fit);
+    pia_context_destroy(context);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(a_refinement_goes_on_after_it_was_cancelled),
         cmocka_unit_test(an_iteration_stops_where_it_is_and_goes_on_later),
         cmocka_unit_test(a_search_for_knots_keeps_the_model_it_has),
     };

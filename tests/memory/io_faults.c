@@ -164,6 +164,19 @@ static pia_status write_model(pia_context *context)
     return status;
 }
 
+static pia_status draw(pia_context *context)
+{
+    static const double knots[] = {0, 0, 1, 1}, line[] = {0, 0, 1, 2};
+    const double *both[] = {knots, knots};
+    pia_model *model = NULL;
+    assert_ok(context, pia_model_create(context, 1, (int[]){1}, both, (pia_index[]){2}, 2, line, NULL, &model));
+    const pia_model *models[] = {model};
+    pia_status status = strstr(target, ".html") != NULL ? pia_page_write(context, target, models, 1, line, 2, NULL)
+                                                        : pia_plot(context, target, models, 1, line, 2, NULL);
+    pia_model_destroy(model);
+    return status;
+}
+
 static pia_status write_checkpoint(pia_context *context)
 {
     pia_output *output = NULL;
@@ -224,7 +237,20 @@ static void writers_leave_the_old_file_or_the_new_one(void **state)
     assert_writer_survives(*state, "model.csv", write_model);
     assert_writer_survives(*state, "model.npy", write_model);
     assert_writer_survives(*state, "model.obj", write_model);
+    assert_writer_survives(*state, "model.g2", write_model);
+    assert_writer_survives(*state, "model.step", write_model);
+    assert_writer_survives(*state, "model.igs", write_model);
     assert_writer_survives(*state, "state", write_checkpoint);
+}
+
+static void pictures_leave_the_old_file_or_the_new_one(void **state)
+{
+    static const char *const name[] = {"report.html", "picture.svg", "picture.pdf", "picture.png"};
+    pia_entry part;
+    int cairo = 0;
+    for (pia_index i = 0; pia_list("part", i, &part); i++)
+        if (strcmp(part.name, "cairo") == 0) cairo = part.detail != NULL && strcmp(part.detail, "in this build") == 0;
+    for (int i = 0; i < (cairo ? 4 : 1); i++) assert_writer_survives(*state, name[i], draw);
 }
 
 static void a_full_disk_is_named_with_what_to_do(void **state)
@@ -289,14 +315,28 @@ static void assert_file_reader_survives(pia_context *context, const char *name, 
     assert_reader_survives(context, work, CLOSE, EIO, PIA_OK);
 }
 
+/* LAS 1.2 with one point. */
+static void make_scan(const char *name)
+{
+    unsigned char file[227 + 20] = "LASF";
+    double unit = 1;
+    file[24] = 1;
+    file[25] = 2;
+    file[94] = file[96] = 227; /* sizes of the header, little-endian */
+    file[105] = 20;            /* of a point */
+    file[107] = 1;             /* points */
+    for (int d = 0; d < 3; d++) memcpy(file + 131 + 8 * d, &unit, sizeof unit);
+    make_file(name, file, sizeof file);
+}
+
 static void readers_tell_what_failed_or_do_without(void **state)
 {
     for (int i = 0; i < 2 * ROWS; i++) table[i] = i / 7.0;
     static char path[128];
-    static const char *const name[] = {"table.csv", "table.npy", "model.json", "mesh.obj", "state"};
-    static operation *const writer[] = {write_table, write_table, write_model, write_model, write_checkpoint};
-    static operation *const reader[] = {read_target, read_target, read_model, read_target, read_checkpoint};
-    for (int i = 0; i < 5; i++) {
+    static const char *const name[] = {"table.csv", "table.npy", "model.json", "model.g2", "mesh.obj", "state"};
+    static operation *const writer[] = {write_table, write_table, write_model, write_model, write_model, write_checkpoint};
+    static operation *const reader[] = {read_target, read_target, read_model, read_model, read_target, read_checkpoint};
+    for (int i = 0; i < 6; i++) {
         snprintf(path, sizeof path, "%s", path_of(name[i]));
         target = path;
         assert_int_equal(writer[i](*state), PIA_OK);
@@ -306,6 +346,10 @@ static void readers_tell_what_failed_or_do_without(void **state)
     assert_file_reader_survives(*state, "grey.pgm", read_target);
     make_text("grid.asc", "ncols 2\nnrows 2\ncellsize 1\n1 2 3 4\n");
     assert_file_reader_survives(*state, "grid.asc", read_target);
+    make_text("cloud.ply", "ply\nformat ascii 1.0\nelement vertex 1\nproperty float x\nproperty float y\nend_header\n1 2\n");
+    assert_file_reader_survives(*state, "cloud.ply", read_target);
+    make_scan("cloud.las");
+    assert_file_reader_survives(*state, "cloud.las", read_target);
 }
 
 /* What cannot be mapped comes by read: a pipe on standard input. */
@@ -345,9 +389,8 @@ static void a_pipe_is_read_through_interruptions(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        IN_FOLDER(writers_leave_the_old_file_or_the_new_one),
-        IN_FOLDER(a_full_disk_is_named_with_what_to_do),
-        IN_FOLDER(readers_tell_what_failed_or_do_without),
+        IN_FOLDER(writers_leave_the_old_file_or_the_new_one), IN_FOLDER(pictures_leave_the_old_file_or_the_new_one),
+        IN_FOLDER(a_full_disk_is_named_with_what_to_do),      IN_FOLDER(readers_tell_what_failed_or_do_without),
         IN_FOLDER(a_pipe_is_read_through_interruptions),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
