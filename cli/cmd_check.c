@@ -78,8 +78,8 @@ static int file_parameters(struct request *request, const char *file, const stru
     *out = numbers.value;
     if (numbers.count == wanted) return EXIT_DONE;
     if (points->info.kind != PIA_GRID || numbers.count != count[0] + count[1])
-        return fail(EXIT_DATA, "%s: holds %lld numbers; %lld points need %lld", file, (long long)numbers.count, (long long)all,
-                    (long long)wanted);
+        return fail(EXIT_DATA, "%s: holds %lld numbers, but %lld points need %lld; write a row for each point", file,
+                    (long long)numbers.count, (long long)all, (long long)wanted);
     *out = grid_parameters(request->session, numbers.value, numbers.value + count[0], count);
     return EXIT_DONE;
 }

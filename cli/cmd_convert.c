@@ -198,7 +198,7 @@ static int apply(struct session *session, const struct step *step, const pia_mod
     pia_model_info info = {.struct_size = sizeof info};
     double bound;
     pia_model_get_info(model, &info);
-    if (given >= info.directions) return fail(EXIT_USAGE, "%s %s: a curve has no direction v", step->option, step->text);
+    if (given >= info.directions) return fail(EXIT_USAGE, "%s %s: a curve has no direction v; leave it out", step->option, step->text);
     switch (step->kind) {
     case REFINE:
     case ELEVATE: return change_directions(session, step, text, direction, model, &out[0]);

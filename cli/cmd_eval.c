@@ -52,7 +52,7 @@ static error_t parse(int key, char *arg, struct argp_state *state)
     case ARGP_KEY_END:
         if (!request->model) return usage_error("no model to evaluate; write 'pia eval MODEL'");
         if (request->samples[0] && request->at) return usage_error("--samples contradicts --at; choose one");
-        if (request->derivative > PIA_MAX_DEGREE) return usage_error("--derivative: at most %d", PIA_MAX_DEGREE);
+        if (request->derivative > PIA_MAX_DEGREE) return usage_error("--derivative: at most %d; lower it", PIA_MAX_DEGREE);
         return 0;
     default: return ARGP_ERR_UNKNOWN;
     }

@@ -17,7 +17,7 @@ struct reading {
 
 static int refuse(const struct reading *reading, const char *what)
 {
-    return fail(EXIT_DATA, "%s: constraint %zu: %s", reading->path, reading->index, what);
+    return fail(EXIT_DATA, "%s: constraint %zu: %s; correct the file", reading->path, reading->index, what);
 }
 
 /* One or two numbers; 0 when it is something else. */
@@ -65,8 +65,8 @@ static int read_value(const struct reading *reading, const json_t *item, pia_con
     if (!item) return EXIT_DONE;
     int single = json_is_number(item) && reading->dim == 1;
     if (!single && json_array_size(item) != (size_t)reading->dim)
-        return fail(EXIT_DATA, "%s: constraint %zu: \"value\" must be a list of %d numbers, as the points have", reading->path,
-                    reading->index, reading->dim);
+        return fail(EXIT_DATA, "%s: constraint %zu: \"value\" must be a list of %d numbers, as the points have; correct it",
+                    reading->path, reading->index, reading->dim);
     double *value = session_keep(reading->session, (size_t)reading->dim, sizeof *value);
     for (int k = 0; k < reading->dim; k++) {
         const json_t *number = single ? item : json_array_get(item, (size_t)k);
@@ -96,7 +96,8 @@ static int read_constraint(const struct reading *reading, json_t *item, pia_cons
     if (!code) code = read_derivative(reading, json_object_get(item, "derivative"), out);
     if (!code) code = read_value(reading, json_object_get(item, "value"), out);
     int data_point = out->at_point != PIA_AUTO && !out->derivative[0] && !out->derivative[1];
-    if (!code && !out->value && !data_point && !*skip) code = refuse(reading, "\"value\" is missing; only the point of a row is known");
+    if (!code && !out->value && !data_point && !*skip)
+        code = refuse(reading, "\"value\" is missing, for only the point of a row is known");
     return code;
 }
 
@@ -114,7 +115,7 @@ static int read_entry(struct reading *reading, json_t *item, struct constraint_f
 
 static int read_list(struct reading *reading, const json_t *list, struct constraint_file *out)
 {
-    if (!json_is_array(list)) return fail(EXIT_DATA, "%s: must hold a list [...] of constraints", reading->path);
+    if (!json_is_array(list)) return fail(EXIT_DATA, "%s: is no list of constraints; write [...] around them", reading->path);
     size_t count = json_array_size(list);
     out->constraint = session_keep(reading->session, count, sizeof *out->constraint);
     out->join = session_keep(reading->session, count, sizeof *out->join);

@@ -191,7 +191,8 @@ static error_t parse_axis_tolerances(struct fit_request *request, char *arg)
     pia_index count = 0;
     for (char *word; (word = strsep(&arg, ",")); count++) {
         double value;
-        if (count == PIA_MAX_DIM) return usage_error("--tolerance: more than %d axes are not possible", PIA_MAX_DIM);
+        if (count == PIA_MAX_DIM)
+            return usage_error("--tolerance: more than %d axes are not possible; give one for each column", PIA_MAX_DIM);
         if (option_number("--tolerance", word, 0, &value)) return ERROR_IS_TOLD;
         if (!(value > 0)) return usage_error("--tolerance: 0 cannot be reached; give a positive number for each axis");
         request->axis_tolerances[count] = value;

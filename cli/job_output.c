@@ -36,7 +36,8 @@ int fit_outputs_check(struct fit_request *request)
         if (!code && request->levels.count && strcmp(outputs->item[i], "-") == 0)
             code = fail(EXIT_USAGE, "-o -: several levels need files; name one");
         for (pia_index j = 0; !code && j < i; j++)
-            if (strcmp(outputs->item[i], outputs->item[j]) == 0) code = fail(EXIT_USAGE, "-o %s: is given twice", outputs->item[i]);
+            if (strcmp(outputs->item[i], outputs->item[j]) == 0)
+                code = fail(EXIT_USAGE, "-o %s: is given twice; name each file once", outputs->item[i]);
     }
     for (size_t i = 0; !code && i < sizeof others / sizeof *others; i++)
         if (others[i]) code = check_one(request, others[i]);

@@ -48,7 +48,7 @@ static int check_parameters(struct fit_job *job)
         return code;
     }
     if (numbers->rows != 2 || numbers->first_row != info->count[0] || numbers->count != info->count[0] + info->count[1])
-        return fail(EXIT_DATA, "%s: a grid of %lld x %lld needs two rows, %lld values of u and %lld of v", numbers->path,
+        return fail(EXIT_DATA, "%s: a grid of %lld x %lld needs two rows; write %lld values of u and %lld of v", numbers->path,
                     (long long)info->count[0], (long long)info->count[1], (long long)info->count[0], (long long)info->count[1]);
     int code = numbers_check_order(job->session, numbers, 0, info->count[0], "parameter");
     return code ? code : numbers_check_order(job->session, numbers, info->count[0], info->count[1], "parameter");
@@ -139,8 +139,8 @@ static int choose_rows(struct fit_job *job, const struct numbers *numbers, const
         return EXIT_DONE;
     }
     if (numbers->count != span->total * width)
-        return fail(EXIT_DATA, "%s: holds %lld numbers, but %lld points need %lld %s", numbers->path, (long long)numbers->count,
-                    (long long)kept, (long long)wanted, what);
+        return fail(EXIT_DATA, "%s: holds %lld numbers, but %lld points need %lld %s; write a row for each point", numbers->path,
+                    (long long)numbers->count, (long long)kept, (long long)wanted, what);
     double *chosen = session_keep(job->session, (size_t)span->count, (size_t)width * sizeof *chosen);
     for (pia_index i = 0; i < span->count; i++)
         memcpy(chosen + i * width, numbers->value + row_in_file(span, i) * width, (size_t)width * sizeof *chosen);

@@ -4,7 +4,7 @@
 
 static int refuse(const char *place, const char *what)
 {
-    return fail(EXIT_DATA, "%s: %s", place, what);
+    return fail(EXIT_DATA, "%s: %s; correct it", place, what);
 }
 
 static const char *text_of(const json_t *item, const char *key)
@@ -54,7 +54,7 @@ static int check_keys(const char *place, json_t *item)
         if (!known && strcmp(key, "reversed"))
             return fail(EXIT_DATA, "%s: unknown key \"%s\"; join, end, to, continuity, reversed", place, key);
         if (known ? !json_is_string(member) : !json_is_boolean(member))
-            return fail(EXIT_DATA, "%s: \"%s\" must be %s", place, key, known ? "a text" : "true or false");
+            return fail(EXIT_DATA, "%s: \"%s\" must be %s; correct it", place, key, known ? "a text" : "true or false");
     }
     return EXIT_DONE;
 }

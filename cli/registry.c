@@ -27,5 +27,6 @@ int name_or_file(struct session *session, const char *option, const char *regist
     *file = text;
     if (strcmp(text, "-") == 0 || access(text, F_OK) == 0) return EXIT_DONE;
     if (strpbrk(text, "./")) return fail(EXIT_FILE, "%s: %s: %s; check the name", option, text, strerror(errno));
-    return fail(EXIT_USAGE, "%s: '%s' is neither a name (%s) nor a file", option, text, registry_names(session, registry));
+    return fail(EXIT_USAGE, "%s: '%s' is neither a name (%s) nor a file; check the spelling", option, text,
+                registry_names(session, registry));
 }

@@ -72,8 +72,8 @@ pia_status pia_values_set(pia_context *context, const char *record, const pia_pa
         if (strcmp(p->name, name) != 0) continue;
         if (assign(p, value, i, values)) return PIA_OK;
         if (p->values != NULL && strstr(p->values, "number") == NULL)
-            return pia_fail(context, PIA_E_ARGUMENT, "%s: %s=%s is not one of %s", record, name, value, p->values);
-        return pia_fail(context, PIA_E_ARGUMENT, "%s: %s=%s is not %s%sa number from %g to %g", record, name, value,
+            return pia_fail(context, PIA_E_ARGUMENT, "%s: %s=%s is unknown; choose one of %s", record, name, value, p->values);
+        return pia_fail(context, PIA_E_ARGUMENT, "%s: %s=%s is out of range; give %s%sa number from %g to %g", record, name, value,
                         p->values != NULL ? p->values : "", p->values != NULL ? " with " : "", p->minimum, p->maximum);
     }
     char names[256];
@@ -90,7 +90,8 @@ pia_status pia_values_read(pia_context *context, const char *record, const pia_p
         char name[64];
         const char *equals = texts[i] != NULL ? strchr(texts[i], '=') : NULL;
         if (equals == NULL || equals == texts[i] || (size_t)(equals - texts[i]) >= sizeof name)
-            return pia_fail(context, PIA_E_ARGUMENT, "%s: option \"%s\" is not NAME=VALUE", record, texts[i] != NULL ? texts[i] : "");
+            return pia_fail(context, PIA_E_ARGUMENT, "%s: option \"%s\" is no setting; write NAME=VALUE", record,
+                            texts[i] != NULL ? texts[i] : "");
         memcpy(name, texts[i], (size_t)(equals - texts[i]));
         name[equals - texts[i]] = '\0';
         pia_status status = pia_values_set(context, record, parameters, name, equals + 1, values);

@@ -58,14 +58,15 @@ static pia_status check_place(const request *r, const pia_constraint *asked, pia
             const pia_collocation *axis = r->op->axis[d];
             double first = axis->knots[axis->degree], last = axis->knots[axis->full], t = asked->at_parameter[d];
             if (!(t >= first && t <= last))
-                return pia_fail(context, PIA_E_ARGUMENT, "constraint %lld is at parameter %.17g, outside the domain [%.17g, %.17g]",
-                                (long long)r->index, t, first, last);
+                return pia_fail(context, PIA_E_ARGUMENT,
+                                "constraint %lld is at parameter %.17g; choose one in the domain [%.17g, %.17g]", (long long)r->index,
+                                t, first, last);
         }
         return PIA_OK;
     }
     if (asked->at_point < 0 || asked->at_point >= r->op->rows)
-        return pia_fail(context, PIA_E_ARGUMENT, "constraint %lld is at point %lld, but the points are numbered 0 to %lld",
-                        (long long)r->index, (long long)asked->at_point, (long long)(r->op->rows - 1));
+        return pia_fail(context, PIA_E_ARGUMENT, "constraint %lld is at point %lld; choose one from 0 to %lld", (long long)r->index,
+                        (long long)asked->at_point, (long long)(r->op->rows - 1));
     origin->point = r->row_name != NULL ? r->row_name[asked->at_point] : asked->at_point;
     parameters_of_row(r->op, asked->at_point, origin->at);
     return PIA_OK;
@@ -98,7 +99,8 @@ static pia_status make_axis(const request *r, const double *value, int dim, doub
     double length = 0;
     for (int d = 0; d < dim; d++) length = hypot(length, value[d]);
     if (!(length > 0))
-        return pia_fail(r->op->context, PIA_E_ARGUMENT, "constraint %lld asks for the direction of a zero vector", (long long)r->index);
+        return pia_fail(r->op->context, PIA_E_ARGUMENT,
+                        "constraint %lld asks for the direction of a zero vector; give one that points somewhere", (long long)r->index);
     for (int d = 0; d < dim; d++) axis[d] = value[d] / length;
     return PIA_OK;
 }
@@ -115,7 +117,8 @@ static pia_status make_row(const request *r, const pia_constraint *asked, pia_co
     if (status != PIA_OK) return status;
     double scale = pia_functional_make(r->op, origin->at, origin->derivative, &c->row[r->index]);
     if (!(scale > 0))
-        return pia_fail(r->op->context, PIA_E_ARGUMENT, "constraint %lld (%s): this derivative is zero for every curve of the degree",
+        return pia_fail(r->op->context, PIA_E_ARGUMENT,
+                        "constraint %lld (%s): this derivative is zero for every curve of the degree; raise the degree",
                         (long long)r->index, pia_origin_text(origin, text));
     int differentiates = origin->derivative[0] + origin->derivative[1] > 0;
     for (int d = 0; d < c->dim; d++)

@@ -61,9 +61,10 @@ static pia_status refuse(const cleaning *w, pia_index condition, double off)
             (long long)c->count, (long long)(c->basis != NULL ? capacity(c) / c->dim : capacity(c)));
     name_partners(w, row, partners, sizeof partners);
     if (partners[0] == '\0')
-        return pia_fail(c->context, PIA_E_CONSTRAINT,
-                        "the constraint at %s cannot be met: the control points that it needs are frozen, and it is off by %.6g",
-                        pia_origin_text(&c->origin[row], name), off);
+        return pia_fail(
+            c->context, PIA_E_CONSTRAINT,
+            "the constraint at %s cannot be met: the control points that it needs are frozen, and it is off by %.6g; free one of them",
+            pia_origin_text(&c->origin[row], name), off);
     return pia_fail(
         c->context, PIA_E_CONSTRAINT,
         "the constraint at %s contradicts those at %s: it is off by %.6g; drop one, ask for more control points there or make "

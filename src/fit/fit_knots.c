@@ -78,8 +78,9 @@ static pia_status given_direction(pia_fit *fit, int d, const double *knots, pia_
                         "%lld knots are too few for degree %d; a clamped vector has control points + degree + 1", (long long)count,
                         fit->degree[d]);
     if (fit->options.control[d] != PIA_AUTO && fit->options.control[d] != n)
-        return pia_fail(fit->context, PIA_E_SHAPE, "%lld knots make %lld control points of degree %d, but %lld were asked",
-                        (long long)count, (long long)n, fit->degree[d], (long long)fit->options.control[d]);
+        return pia_fail(fit->context, PIA_E_SHAPE,
+                        "%lld knots make %lld control points of degree %d, but %lld were asked; leave one out", (long long)count,
+                        (long long)n, fit->degree[d], (long long)fit->options.control[d]);
     fit->map[d] = fit->closed[d] ? PIA_MAP_CYCLIC : PIA_MAP_IDENTITY;
     pia_status status = pia_fit_check_control(fit, d, n);
     if (status == PIA_OK) status = pia_fit_take_knots(fit, d, full);
@@ -126,7 +127,8 @@ static pia_status fit_into_domain(pia_fit *fit, int d)
     if (stride == 1 && t[0] >= low && t[count - 1] <= high) return PIA_OK; /* they are in order */
     for (pia_index i = 0; i < count && !fit->closed[d]; i++)
         if (!(t[i * stride] >= low && t[i * stride] <= high))
-            return pia_fail(fit->context, PIA_E_DATA, "parameter %.17g of row %lld lies outside the knots' domain [%.17g, %.17g]",
+            return pia_fail(fit->context, PIA_E_DATA,
+                            "parameter %.17g of row %lld lies outside the domain [%.17g, %.17g]; give knots that reach it",
                             t[i * stride], (long long)i, low, high);
     return PIA_OK;
 }

@@ -21,7 +21,7 @@ pia_status pia_fit_refuse_parameters(pia_fit *fit, const double *given, int dire
             return pia_fail(context, PIA_E_DATA, "%sparameter %lld is %g; parameters of a closed direction lie in [0, 1)", where,
                             (long long)i, given[i]);
     }
-    return pia_fail(context, PIA_E_DATA, "all %sparameters equal %g", where, given[0]);
+    return pia_fail(context, PIA_E_DATA, "all %sparameters equal %g; give ones that rise", where, given[0]);
 }
 
 /* *rising: no two parameters are equal. */

@@ -196,7 +196,8 @@ pia_status pia_sequence_from_knots(pia_fit *fit)
     for (int d = 0; d < fit->directions && status == PIA_OK; d++) {
         pia_index control = fit->full[d], lines = s->lines[d], next = 0;
         if (control > lines)
-            return pia_fail(fit->context, PIA_E_ARGUMENT, "%lld control points in %c are more than the %lld different parameters there",
+            return pia_fail(fit->context, PIA_E_ARGUMENT,
+                            "%lld control points in %c are more than the %lld different parameters there; ask for fewer",
                             (long long)control, 'u' + d, (long long)lines);
         for (pia_index i = 0; i < control; i++) {
             double t = pia_knots_greville(fit->knots[d], fit->degree[d], i);

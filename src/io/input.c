@@ -114,8 +114,9 @@ pia_status pia_input_fail(pia_context *context, const pia_input *input, const ch
     va_start(arguments, format);
     vsnprintf(text, sizeof text, format, arguments);
     va_end(arguments);
-    if (at == NULL) return pia_fail(context, PIA_E_FORMAT, "%s: %s", input->path, text);
-    return pia_fail(context, PIA_E_FORMAT, "%s:%lld: %s", input->path, (long long)pia_input_line(input, at), text);
+    const char *remedy = strchr(text, ';') == NULL ? "; correct the file" : "";
+    if (at == NULL) return pia_fail(context, PIA_E_FORMAT, "%s: %s%s", input->path, text, remedy);
+    return pia_fail(context, PIA_E_FORMAT, "%s:%lld: %s%s", input->path, (long long)pia_input_line(input, at), text, remedy);
 }
 
 pia_status pia_input_judge(pia_context *context, const pia_input *input, const char *at, const char *where, pia_status status)

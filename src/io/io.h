@@ -22,7 +22,8 @@ void pia_input_close(pia_context *context, pia_input *input);
 
 /* Number of the line that holds `at`, from 1. LF, CRLF and CR end a line. */
 pia_index pia_input_line(const pia_input *input, const char *at);
-/* PIA_E_FORMAT with "PATH:LINE: ...", or "PATH: ..." when at is NULL. */
+/* PIA_E_FORMAT with "PATH:LINE: ...", or "PATH: ..." when at is NULL. What names no remedy behind a semicolon asks to correct the
+ * file. */
 pia_status pia_input_fail(pia_context *context, const pia_input *input, const char *at, const char *format, ...)
     __attribute__((format(printf, 4, 5)));
 /* The outcome of a call about what a file holds, told as one about the file: failures but of memory become PIA_E_FORMAT

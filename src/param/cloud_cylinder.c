@@ -45,7 +45,8 @@ pia_status pia_cloud_by_cylinder(pia_context *context, const double *points, pia
         low = fmin(low, uv[2 * i + 1]);
         high = fmax(high, uv[2 * i + 1]);
     }
-    if (!(high > low)) return pia_fail(context, PIA_E_DATA, "the points lie on a circle, not on a cylinder");
+    if (!(high > low))
+        return pia_fail(context, PIA_E_DATA, "the points lie on a circle, not on a cylinder; take another parametrization");
     for (pia_index i = 0; i < count; i++) uv[2 * i + 1] = (uv[2 * i + 1] - low) / (high - low);
     *closed = pia_cloud_open_gap(uv, count);
     return PIA_OK;

@@ -194,8 +194,7 @@ static pia_status average(pia_context *context, work *w, double *sums, double *o
     }
     pia_for_each(context, w->chunks, take_chunk, w);
     join(w);
-    if (w->part[0].used == 0)
-        return pia_fail(context, PIA_E_DATA, "no line of the grid has two different points: nothing to parametrize");
+    if (w->part[0].used == 0) return pia_fail(context, PIA_E_DATA, "no line of the grid has two different points; give its parameters");
     finish(w->d, &w->part[0], out);
     return PIA_OK;
 }

@@ -70,7 +70,7 @@ static pia_status place(pia_context *context, const pia_place_problem *p, double
     if (status != PIA_OK) return status;
     pia_index different = count_different(p);
     if (p->control > different)
-        return pia_fail(context, PIA_E_SHAPE, "%lld different parameters hold at most %lld control points, not %lld",
+        return pia_fail(context, PIA_E_SHAPE, "%lld different parameters hold at most %lld control points, not %lld; ask for fewer",
                         (long long)different, (long long)different, (long long)p->control);
     if (!pia_multiply(2 * p->control, p->count, &product))
         return pia_fail(context, PIA_E_SIZE, "%lld control points for %lld parameters do not fit in 64 bits", (long long)p->control,

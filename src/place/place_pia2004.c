@@ -8,7 +8,8 @@ static pia_status place(pia_context *context, const pia_place_problem *p, double
         return pia_fail(context, PIA_E_ARGUMENT, "the 2004 format is cubic and open; degree %d, closed %d was asked", p->degree,
                         p->closed);
     if (p->control != p->count + 2)
-        return pia_fail(context, PIA_E_SHAPE, "the 2004 format has %lld control points for %lld parameters, not %lld",
+        return pia_fail(context, PIA_E_SHAPE,
+                        "the 2004 format has %lld control points for %lld parameters, not %lld; leave their number out",
                         (long long)p->count + 2, (long long)p->count, (long long)p->control);
     pia_status status = pia_spacing_check_problem(context, p);
     if (status != PIA_OK) return status;

@@ -22,7 +22,7 @@ pia_status pia_spacing_check_problem(pia_context *context, const pia_place_probl
             return pia_fail(context, PIA_E_DATA, "parameter %lld is %g; parameters must be finite and not decrease", (long long)i,
                             p->parameters[i]);
     double first = p->parameters[0], last = p->parameters[p->count - 1];
-    if (first == last) return pia_fail(context, PIA_E_DATA, "all %lld parameters are equal", (long long)p->count);
+    if (first == last) return pia_fail(context, PIA_E_DATA, "all %lld parameters are equal; give ones that rise", (long long)p->count);
     if (p->closed && !(first >= 0 && last < 1))
         return pia_fail(context, PIA_E_DATA, "parameters run from %g to %g; those of a closed curve lie in [0, 1)", first, last);
     return PIA_OK;
@@ -31,8 +31,10 @@ pia_status pia_spacing_check_problem(pia_context *context, const pia_place_probl
 pia_status pia_spacing_check_square(pia_context *context, const pia_place_problem *p)
 {
     if (p->control != p->count)
-        return pia_fail(context, PIA_E_SHAPE, "interpolation of %lld parameters needs %lld control points, not %lld",
-                        (long long)p->count, (long long)p->count, (long long)p->control);
+        return pia_fail(
+            context, PIA_E_SHAPE,
+            "interpolation of %lld parameters needs %lld control points, not %lld; leave their number out, or place knots by lsq",
+            (long long)p->count, (long long)p->count, (long long)p->control);
     return pia_spacing_check_problem(context, p);
 }
 

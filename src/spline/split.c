@@ -25,7 +25,8 @@ pia_status pia_model_split(pia_context *context, const pia_model *model, int dir
     pia_index control = model->control[direction], count = control + degree + 1;
     const double *knots = model->knots[direction];
     if (!(value > knots[degree] && value < knots[control]))
-        return pia_fail(context, PIA_E_ARGUMENT, "%.17g is not inside the domain [%.17g, %.17g]", value, knots[degree], knots[control]);
+        return pia_fail(context, PIA_E_ARGUMENT, "%.17g is no place to split at; choose one inside the domain [%.17g, %.17g]", value,
+                        knots[degree], knots[control]);
     double *target = pia_take(context, count + degree + 1, sizeof *target);
     if (target == NULL) return pia_take_status(context, count + degree + 1, sizeof *target);
     pia_model *part[2] = {NULL, NULL};

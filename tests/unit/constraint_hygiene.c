@@ -144,7 +144,7 @@ static void impossible_requests_are_refused_by_number(void **state)
     open_curve(&b, 2, 10, 30);
     b.list[0].at_point = 30;
     assert_status(b.context, build(&b, 1), PIA_E_ARGUMENT);
-    expect_message(&b, "constraint 0 is at point 30, but the points are numbered 0 to 29");
+    expect_message(&b, "constraint 0 is at point 30; choose one from 0 to 29");
     b.list[0].at_point = PIA_AUTO;
     b.list[0].at_parameter[0] = 1.5;
     assert_status(b.context, build(&b, 1), PIA_E_ARGUMENT);
