@@ -100,8 +100,9 @@ int pia_fit_is_one_step(const pia_fit *fit)
 
 int pia_fit_is_trusting(const pia_fit *fit)
 {
-    return fit->unseen && fit->directions == 1 && is_plain(fit) && fit->options.knots[0] != NULL && fit->solve.limiter == NULL &&
-           pia_windows_suit_rows(fit->rows, fit->degree[0]);
+    int knots = fit->options.knots[0] != NULL && (fit->directions == 1 || fit->options.knots[1] != NULL);
+    if (!fit->unseen || !is_plain(fit) || !knots || fit->solve.limiter != NULL) return 0;
+    return fit->directions == 1 ? pia_windows_suit_rows(fit->rows, fit->degree[0]) : pia_square_grid_suits_counts(fit->count, fit->dim);
 }
 
 /* The step of a trusting fit has seen the points. Its control points count from nowhere. */

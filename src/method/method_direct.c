@@ -108,25 +108,29 @@ static void take_errors(pia_iterate *iterate, direct *d, const pia_step_errors *
     d->steps++;
 }
 
-static pia_status step_by_windows(pia_iterate *iterate, direct *d, int *done)
+/* A step that is all of the way. It looks at points that nobody has looked at before. */
+static pia_status step_at_once(pia_iterate *iterate, direct *d, int *done)
 {
     pia_step_errors errors;
-    pia_survey survey;
-    pia_status status = pia_windows_step(iterate->op, iterate->points, &iterate->targets, iterate->adjust,
-                                         iterate->look != NULL ? &survey : NULL, &errors, done);
-    if (status == PIA_OK && iterate->look != NULL)
+    pia_survey seen, *survey = iterate->look != NULL ? &seen : NULL;
+    pia_status status = PIA_OK;
+    *done = 1;
+    if (iterate->op->directions == 2)
+        status = pia_square_grid_step(iterate->op, &iterate->targets, iterate->adjust, survey, &errors);
+    else
+        status = pia_windows_step(iterate->op, iterate->points, &iterate->targets, iterate->adjust, survey, &errors, done);
+    if (status == PIA_OK && survey != NULL)
         status =
-            *done ? iterate->look(iterate->owner, &survey) : pia_fail(iterate->context, PIA_E_DATA, "the points are to be seen first");
+            *done ? iterate->look(iterate->owner, survey) : pia_fail(iterate->context, PIA_E_DATA, "the points are to be seen first");
     if (status == PIA_OK && *done) take_errors(iterate, d, &errors);
     return status;
 }
 
-static pia_status step_on_grid(pia_iterate *iterate, direct *d)
+/* Long curves, and grids whose control points start at the points. */
+static int goes_at_once(const pia_iterate *iterate, const direct *d)
 {
-    pia_step_errors errors;
-    pia_status status = pia_square_grid_step(iterate->op, &iterate->targets, iterate->adjust, &errors);
-    if (status == PIA_OK) take_errors(iterate, d, &errors);
-    return status;
+    if (!iterate->square || d->steps > 0) return 0;
+    return pia_windows_suit(iterate->op) || (iterate->points == NULL && pia_square_grid_suits(iterate->op, iterate->dim));
 }
 
 static pia_status step(pia_iterate *iterate, void *state)
@@ -136,10 +140,8 @@ static pia_status step(pia_iterate *iterate, void *state)
     iterate->finished = is_settled(iterate, d->steps);
     if (iterate->finished) return PIA_OK;
     pia_status status = take_adjust(iterate);
-    if (status == PIA_OK && iterate->square && d->steps == 0 && pia_windows_suit(iterate->op))
-        status = step_by_windows(iterate, d, &done);
+    if (status == PIA_OK && goes_at_once(iterate, d)) status = step_at_once(iterate, d, &done);
     if (status != PIA_OK || done) return status;
-    if (iterate->square && iterate->points == NULL && pia_square_grid_suits(iterate->op, iterate->dim)) return step_on_grid(iterate, d);
     status = take_points(iterate);
     if (status == PIA_OK) status = adjust(iterate, state);
     if (status != PIA_OK || iterate->finished) return status;

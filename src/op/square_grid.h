@@ -4,12 +4,14 @@
 
 #include "windows.h"
 
-/* Whether an operator is a grid whose unknowns are its control points, none frozen, of at most 8 components and 16384 points a line. */
+/* Whether a grid of count[0] x count[1] points is one of at most 8 components and 16384 points a line. */
+int pia_square_grid_suits_counts(const pia_index *count, int dim);
+/* Whether an operator is such a grid, its unknowns its control points, none frozen. */
 int pia_square_grid_suits(const pia_op *op, int dim);
 
-/* next [cols x dim] = A^-1 (targets - origin), and the errors of the targets and of `next` as control points: two passes over
- * lines of one direction and one over those of the other, each of which takes what it needs through the cache once. The operator's work
- * array is used. Errors: PIA_E_DATA where a pivot vanishes, PIA_E_MEMORY, PIA_E_SIZE. */
-pia_status pia_square_grid_step(const pia_op *op, const pia_targets *targets, double *next, pia_step_errors *out);
+/* next [cols x dim] = A^-1 (targets - origin), and the errors of the targets and of `next` as control points. Two passes: lines of one
+ * direction, which also look at the points unless `survey` is NULL, then those of the other, which measure as well. Errors: PIA_E_DATA
+ * where a pivot vanishes, PIA_E_MEMORY, PIA_E_SIZE. */
+pia_status pia_square_grid_step(const pia_op *op, const pia_targets *targets, double *next, pia_survey *survey, pia_step_errors *out);
 
 #endif

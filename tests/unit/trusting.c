@@ -239,6 +239,117 @@ static void what_is_wrong_with_a_grid_is_named(void **state)
     check_grid_refused(&g, "v parameter 30 is 0, less than 0.49152542372881358 before it; sort the rows by parameter");
 }
 
+/* Through every point, on knots at the parameters. */
+typedef struct square {
+    double points[LINES * LINES * 2], parameters[2 * LINES], knots[2][LINES + DEGREE + 1], control[LINES * LINES * 2];
+    pia_data data;
+    pia_fit_options options;
+    pia_context *context;
+} square;
+
+static square *make_square(void)
+{
+    square *s = malloc(sizeof *s);
+    grid *g = malloc(sizeof *g);
+    assert_non_null(s);
+    assert_non_null(g);
+    make_grid(g);
+    s->context = g->context;
+    s->options = g->options;
+    s->data = g->data;
+    memcpy(s->points, g->points, sizeof s->points);
+    memcpy(s->parameters, g->parameters, sizeof s->parameters);
+    s->data.points = s->points;
+    s->data.parameters = s->parameters;
+    s->options.method = "direct";
+    for (int d = 0; d < 2; d++) {
+        for (int k = 0; k <= DEGREE; k++) {
+            s->knots[d][k] = 0;
+            s->knots[d][LINES + k] = 1;
+        }
+        for (int k = DEGREE + 1; k < LINES; k++) s->knots[d][k] = s->parameters[k - 2];
+        s->options.control[d] = PIA_AUTO;
+        s->options.knots[d] = s->knots[d];
+        s->options.knot_count[d] = LINES + DEGREE + 1;
+    }
+    free(g);
+    return s;
+}
+
+static void drop_square(square *s)
+{
+    pia_context_destroy(s->context);
+    free(s);
+}
+
+static void a_grid_is_seen_by_its_interpolation(void **state)
+{
+    (void)state;
+    square *s = make_square();
+    pia_report once = {.struct_size = sizeof once}, careful = {.struct_size = sizeof careful};
+    pia_model *model;
+    pia_fit *fit;
+    assert_ok(s->context, pia_fit_data(s->context, &s->data, &s->options, &model, &once));
+    pia_model_control(model, s->control, NULL);
+    assert_ok(s->context, pia_fit_open(s->context, &s->data, &s->options, &fit));
+    assert_ok(s->context, pia_fit_run(fit, NULL));
+    assert_ok(s->context, pia_fit_report(fit, &careful));
+    assert_true(once.max_error < 1e-12 && once.point_count == LINES * LINES);
+    assert_near(once.start_error, careful.start_error, 1e-12);
+    pia_model_destroy(model);
+    assert_ok(s->context, pia_fit_model(fit, &model));
+    pia_model_control(model, s->points, NULL);
+    for (int i = 0; i < 2 * LINES * LINES; i++) assert_near(s->control[i], s->points[i], 1e-11);
+    pia_model_destroy(model);
+    pia_fit_close(fit);
+    drop_square(s);
+}
+
+static void check_square_refused(square *s, const char *message)
+{
+    pia_model *model = NULL;
+    assert_status(s->context, pia_fit_data(s->context, &s->data, &s->options, &model, NULL), PIA_E_DATA);
+    assert_null(model);
+    assert_string_equal(pia_message(s->context), message);
+    drop_square(s);
+}
+
+static void what_is_wrong_with_such_a_grid_is_named(void **state)
+{
+    (void)state;
+    square *s = make_square();
+    s->points[2 * 3599] = -INFINITY;
+    check_square_refused(s, "row 3599: component 0 is -inf, not a finite number; drop such rows (--skip-invalid)");
+    s = make_square();
+    for (int i = 0; i < 2 * LINES * LINES; i++) s->points[i] = 7;
+    check_square_refused(s, "all 3600 points are equal; there is no surface to fit");
+    s = make_square();
+    s->parameters[LINES + 30] = 0;
+    check_square_refused(s, "v parameter 30 is 0, less than 0.49152542372881358 before it; sort the rows by parameter");
+    s = make_square();
+    s->parameters[30] = s->parameters[31];
+    check_square_refused(
+        s, "parameters 30 and 31 are equal (0.52542372881355937) but their points differ; least squares (--control) can fit them");
+    s = make_square();
+    for (int k = 20; k < 30; k++) s->knots[0][k] = s->knots[0][20] + 1e-4 * (k - 20);
+    check_square_refused(s,
+                         "knots and parameters do not belong together: control point 19 of direction u has no hold on its data point "
+                         "(Schoenberg-Whitney); place knots by --knots average");
+}
+
+static void holes_of_such_a_grid_are_left_out(void **state)
+{
+    (void)state;
+    square *s = make_square();
+    pia_report report = {.struct_size = sizeof report};
+    pia_model *model;
+    s->points[2 * 777 + 1] = NAN;
+    assert_ok(s->context, pia_fit_data(s->context, &s->data, &s->options, &model, &report));
+    assert_true(report.max_error < 1e-9);
+    pia_model_destroy(model);
+    drop_square(s);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -251,6 +362,9 @@ int main(void)
         cmocka_unit_test(a_grid_is_seen_by_its_sums),
         cmocka_unit_test(holes_and_weights_of_a_grid_are_known_in_time),
         cmocka_unit_test(what_is_wrong_with_a_grid_is_named),
+        cmocka_unit_test(a_grid_is_seen_by_its_interpolation),
+        cmocka_unit_test(what_is_wrong_with_such_a_grid_is_named),
+        cmocka_unit_test(holes_of_such_a_grid_are_left_out),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,0 +1,311 @@
+/* Panels of columns go down through the elimination along u, and up through everything else: substitution, control points, and the
+ * errors before and after, while what they need is in the first-level cache. Vectors run across the columns: block
+ * [u x (width + 2 halo)], zeros around it. Included once for each width, after square_grid_vectors.h, with TARGETS before functions
+ * that are made for certain processors. */
+#include <math.h>
+
+enum { AHEAD = 12 /* rows */ };
+
+/* Squared lengths: their sum lane by lane of a unit, the longest and its number lane by lane of a vector. They come from the last to
+ * the first, so that of equals the one to come counts. */
+typedef struct tally {
+    lanes sum[PARTS], most;
+    masks at;
+} tally;
+
+PIA_INLINE void count(tally *t, lanes length, int part, masks number)
+{
+    masks more = length >= t->most;
+    t->sum[part] += length;
+    t->most = (lanes)choose(more, (masks)length, (masks)t->most);
+    t->at = choose(more, number, t->at);
+}
+
+/* One panel at work. */
+typedef struct strip {
+    const pia_square_grid *g;
+    pia_index begin; /* its first number in a line */
+    pia_index size;  /* width + 2 halo */
+    pia_index line;  /* numbers of a line */
+    int inside;      /* 1: lines have all of its numbers */
+    double *block;   /* [u x size] */
+    double *copy;    /* [(lower + 1 + upper) of u x size] rows of points that are not inside */
+    double *product; /* [2 x 2 x size] of points and of control points with A_u, for even and odd rows */
+    double *square;  /* [3 x (width + UNIT)] of errors before, after, of corrections, zeros at the ends */
+    tally before, after;
+    lanes moved; /* squared length of the longest correction */
+} strip;
+
+/* The numbers of a panel in a row of an array, zeros where it has none; `copy` has room for them. */
+PIA_INLINE const double *row_of(const strip *s, const double *array, pia_index stride, pia_index row, double *copy)
+{
+    const double *from = array + row * stride;
+    if (s->inside) return from + s->begin - s->g->halo;
+    pia_index first = s->begin - s->g->halo, end = first + s->size < s->line ? first + s->size : s->line, low = first > 0 ? first : 0;
+    memset(copy, 0, (size_t)s->size * sizeof *copy);
+    memcpy(copy + low - first, from + low, (size_t)(end - low) * sizeof *copy);
+    return copy;
+}
+
+/* Rows are pages apart, which no processor looks ahead of by itself. */
+PIA_INLINE void fetch(const strip *s, const double *array, pia_index stride, pia_index row)
+{
+    if (row < 0 || row >= s->g->u->n) return;
+    pia_index first = s->begin > 0 ? s->begin - s->g->halo : 0, end = s->begin + s->g->width + s->g->halo;
+    for (pia_index c = first; c < end && c < s->line; c += UNIT) __builtin_prefetch(array + row * stride + c, 0, 2);
+}
+
+PIA_INLINE void eliminate_row(const strip *s, const double *from, pia_index i, int reach)
+{
+    const pia_grid_side *u = s->g->u;
+    const double *factor = u->factor + i * (u->lower + 1 + u->upper) + u->lower;
+    double *to = s->block + i * s->size;
+    for (pia_index c = 0; c < s->size; c += LANES) {
+        lanes y = load(from + c);
+        for (int r = reach; r >= 1; r--) y -= factor[-r] * load(to - r * s->size + c);
+        store(y * factor[0], to + c);
+    }
+}
+
+PIA_INLINE void substitute_row(const strip *s, pia_index i, int reach)
+{
+    const pia_grid_side *u = s->g->u;
+    const double *factor = u->factor + i * (u->lower + 1 + u->upper) + u->lower;
+    double *to = s->block + i * s->size;
+    for (pia_index c = 0; c < s->size; c += LANES) {
+        lanes x = load(to + c);
+        for (int r = reach; r >= 1; r--) x -= factor[r] * load(to + r * s->size + c);
+        store(x, to + c);
+    }
+}
+
+/* to = row i of A_u times points less their shift, and times control points: as many rows of these as entries from entry[-reach] on. */
+PIA_INLINE void multiply_row(const strip *s, pia_index i, const double *const *points, int lower, int upper)
+{
+    const pia_grid_side *u = s->g->u;
+    const double *entry = u->entry + i * (u->lower + 1 + u->upper) + u->lower, *x = s->block + i * s->size, *shift = s->g->shift;
+    const pia_index size = s->size;
+    double *to_before = s->product + (i & 1) * 2 * size, *to_after = to_before + size;
+    for (pia_index c = 0; c < size; c += LANES) {
+        lanes before = {0}, after = {0};
+        for (int r = -lower; r <= upper; r++) {
+            before += entry[r] * (load(points[r] + c) - load(shift + c));
+            after += entry[r] * load(x + r * size + c);
+        }
+        store(before, to_before + c);
+        store(after, to_after + c);
+    }
+}
+
+/* What row i, which is known, leaves at numbers c ..: of the points, of the control points, and what these were moved by. */
+typedef struct leftover {
+    lanes before, after, moved;
+} leftover;
+
+/* Row i as finish_row needs it, from the first number of the panel on. */
+typedef struct known {
+    const double *points, *shift, *x, *before, *after; /* before, after: products with A_u */
+    const double *across;                              /* the diagonal; others are `length` apart */
+    pia_index length;
+} known;
+
+PIA_INLINE leftover leave(const known *row, pia_index c, int lower, int upper, int dim)
+{
+    lanes point = load(row->points + c) - load(row->shift + c);
+    leftover left = {point, point, load(row->x + c) - point};
+    for (int r = -lower; r <= upper; r++) {
+        lanes entry = load(row->across + r * row->length + c);
+        left.before -= entry * load(row->before + c + r * dim);
+        left.after -= entry * load(row->after + c + r * dim);
+    }
+    left.before *= left.before;
+    left.after *= left.after;
+    left.moved *= left.moved;
+    return left;
+}
+
+/* The squared length of the point that begins at number c. */
+PIA_INLINE lanes length_at(const double *square, pia_index c, int dim)
+{
+    lanes sum = load(square + c);
+    for (int d = 1; d < dim; d++) sum += load(square + c + d);
+    return sum;
+}
+
+PIA_INLINE void leave_squares(const strip *s, const known *row, int lower, int upper, int dim)
+{
+    const pia_index width = s->g->width, next = width + UNIT;
+    double *square = s->square;
+    for (pia_index c = 0; c < width; c += LANES) {
+        leftover left = leave(row, c, lower, upper, dim);
+        store(left.before, square + c);
+        store(left.after, square + next + c);
+        store(left.moved, square + 2 * next + c);
+    }
+}
+
+/* Errors before and after, and corrections. */
+PIA_INLINE void measure_row(strip *s, const known *row, pia_index first, int lower, int upper, int dim)
+{
+    const pia_index width = s->g->width, next = width + UNIT;
+    const double *counts = s->g->counts + s->begin, *square = s->square;
+    tally before = s->before, after = s->after;
+    lanes moved = s->moved;
+    masks number = first + width + LANE_NUMBERS;
+    if (dim > 1) leave_squares(s, row, lower, upper, dim);
+    for (pia_index c = width - UNIT; c >= 0; c -= UNIT)
+        for (int part = PARTS - 1; part >= 0; part--) {
+            const pia_index at = c + part * LANES;
+            const lanes count_of = load(counts + at);
+            leftover left;
+            if (dim == 1)
+                left = leave(row, at, lower, upper, 1);
+            else
+                left = (leftover){length_at(square, at, dim), length_at(square + next, at, dim), length_at(square + 2 * next, at, dim)};
+            number -= LANES;
+            count(&before, count_of * left.before, part, number);
+            count(&after, count_of * left.after, part, number);
+            moved = larger(count_of * left.moved, moved);
+        }
+    s->before = before;
+    s->after = after;
+    s->moved = moved;
+}
+
+PIA_INLINE void store_row(const strip *s, const known *row, double *to)
+{
+    const double *x = row->x, *back = s->g->back;
+    pia_index wanted = s->line - s->begin < s->g->width ? s->line - s->begin : s->g->width, c = 0;
+    for (; c + LANES <= wanted; c += LANES) store(load(x + c) + load(back + c), to + c);
+    for (; c < wanted; c++) to[c] = x[c] + back[c];
+}
+
+PIA_INLINE void go_down_rows(const strip *s)
+{
+    const pia_square_grid *g = s->g;
+    const pia_grid_side *u = g->u;
+    for (pia_index i = 0; i < u->n; i++) {
+        fetch(s, g->along, g->stride, i + AHEAD);
+        const double *from = row_of(s, g->along, g->stride, i, s->copy);
+        if (u->narrow_factor[i])
+            eliminate_row(s, from, i, 1);
+        else
+            eliminate_row(s, from, i, u->lower);
+    }
+}
+
+/* Rows of points around row i, for multiply_row: row[lower] is row i; rows outside meet entries that are 0. */
+PIA_INLINE void point_rows(const strip *s, pia_index i, int lower, int upper, const double **row)
+{
+    for (int r = -lower; r <= upper; r++) {
+        pia_index at = i + r < 0 ? 0 : i + r >= s->g->u->n ? s->g->u->n - 1 : i + r;
+        row[lower + r] = row_of(s, s->g->points, s->line, at, s->copy + (lower + r) * s->size);
+    }
+}
+
+PIA_INLINE void multiply(const strip *s, pia_index i, int lower, int upper)
+{
+    const double *row[2 * PIA_MAX_DEGREE + 1];
+    point_rows(s, i, lower, upper, row);
+    multiply_row(s, i, row + lower, lower, upper);
+}
+
+PIA_INLINE void finish(strip *s, pia_index i, int narrow, int dim)
+{
+    const pia_square_grid *g = s->g;
+    const double *product = s->product + (i & 1) * 2 * s->size + g->halo;
+    const known row = {.points = row_of(s, g->points, s->line, i, s->copy) + g->halo,
+                       .shift = g->shift + g->halo,
+                       .x = s->block + i * s->size + g->halo,
+                       .before = product,
+                       .after = product + s->size,
+                       .across = g->across + g->v->lower * g->panels * g->width + s->begin,
+                       .length = g->panels * g->width};
+    pia_index first = i * s->line + s->begin;
+    if (narrow)
+        measure_row(s, &row, first, 1, 1, dim);
+    else
+        measure_row(s, &row, first, g->v->lower, g->v->upper, dim);
+    store_row(s, &row, g->next + first);
+}
+
+/* A row is multiplied as soon as all rows are known that its equation has, and finished after the next one, when what it reads in two
+ * pieces has left the processor's queue of stores. */
+PIA_INLINE void go_up_rows(strip *s, int narrow, int dim)
+{
+    const pia_grid_side *u = s->g->u;
+    for (pia_index i = u->n - 1; i >= -u->lower - 1; i--) {
+        fetch(s, s->g->points, s->line, i - AHEAD);
+        if (i >= 0 && u->narrow_factor[i])
+            substitute_row(s, i, 1);
+        else if (i >= 0)
+            substitute_row(s, i, u->upper);
+        pia_index ready = i + u->lower;
+        if (ready >= 0 && ready < u->n && u->narrow_entry[ready])
+            multiply(s, ready, 1, 1);
+        else if (ready >= 0 && ready < u->n)
+            multiply(s, ready, u->lower, u->upper);
+        if (ready + 1 < u->n) finish(s, ready + 1, narrow, dim);
+    }
+}
+
+static strip open_strip(const pia_square_grid *g, pia_index panel, double *room)
+{
+    strip s = {.g = g, .begin = panel * g->width, .size = g->width + 2 * g->halo, .line = g->v->n * g->dim};
+    const pia_grid_side *u = g->u;
+    s.inside = s.begin >= g->halo && s.begin + g->width + g->halo <= s.line;
+    s.block = room + u->lower * s.size;
+    double *behind = s.block + (u->n + u->upper) * s.size;
+    memset(room, 0, (size_t)(u->lower * s.size) * sizeof *room);
+    memset(s.block + u->n * s.size, 0, (size_t)(u->upper * s.size) * sizeof *room);
+    s.product = behind;
+    s.square = s.product + 4 * s.size;
+    s.copy = s.square + 3 * (g->width + UNIT);
+    memset(s.square, 0, (size_t)(3 * (g->width + UNIT)) * sizeof *room);
+    return s;
+}
+
+static pia_errors errors_of(const strip *s, const tally *t)
+{
+    const pia_square_grid *g = s->g;
+    double sum[UNIT];
+    pia_index left = (s->line - s->begin) / g->dim, points = g->width / g->dim;
+    pia_errors e = {.max_row = INT64_MAX, .count = g->u->n * (left < points ? left : points)};
+    memcpy(sum, t->sum, sizeof sum);
+    for (int l = 0; l < UNIT / 2; l++) sum[l] += sum[l + UNIT / 2];
+    e.sum_squares = e.weighted = (sum[0] + sum[1]) + (sum[2] + sum[3]);
+    for (int l = 0; l < LANES; l++) {
+        if (t->most[l] < e.max || (t->most[l] == e.max && t->at[l] > e.max_row)) continue;
+        e.max = t->most[l];
+        e.max_row = t->at[l];
+    }
+    e.max_row /= g->dim;
+    e.max = sqrt(e.max);
+    return e;
+}
+
+static void close_strip(const strip *s, pia_step_errors *errors)
+{
+    errors->before = pia_errors_join(errors->before, errors_of(s, &s->before));
+    errors->after = pia_errors_join(errors->after, errors_of(s, &s->after));
+    for (int l = 0; l < LANES; l++) errors->moved = fmax(errors->moved, sqrt(s->moved[l]));
+}
+
+TARGETS static void solve_panel(strip *s, int narrow)
+{
+    go_down_rows(s);
+    if (narrow && s->g->dim == 1)
+        go_up_rows(s, 1, 1);
+    else if (narrow && s->g->dim == 3)
+        go_up_rows(s, 1, 3);
+    else
+        go_up_rows(s, narrow, s->g->dim);
+}
+
+static void panel(const pia_square_grid *g, pia_index number, double *room, pia_step_errors *errors)
+{
+    strip s = open_strip(g, number, room);
+    pia_index first = s.begin / g->dim, end = first + g->width / g->dim;
+    solve_panel(&s, all_narrow(g->v->narrow_entry, first, end < g->v->n ? end : g->v->n));
+    close_strip(&s, errors);
+}
