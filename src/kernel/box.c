@@ -56,6 +56,15 @@ void pia_box_add(pia_box *box, const double *points, pia_index rows)
     }
 }
 
+void pia_box_join(pia_box *box, int lanes, const double *low, const double *high)
+{
+    for (int place = 0; place < lanes * box->dim; place++) {
+        int own = place % (PIA_LANES * box->dim);
+        box->low[own] = low[place] < box->low[own] ? low[place] : box->low[own];
+        box->high[own] = high[place] > box->high[own] ? high[place] : box->high[own];
+    }
+}
+
 int pia_box_close(const pia_box *box, double *low, double *high)
 {
     int finite = box->numbers;

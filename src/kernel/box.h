@@ -14,6 +14,9 @@ typedef struct pia_box {
 
 void pia_box_open(int dim, pia_box *out);
 void pia_box_add(pia_box *box, const double *points, pia_index rows);
+/* Numbers seen elsewhere: the lowest and the highest [lanes x dim], lanes a multiple of PIA_LANES, in each place that of component
+ * place modulo dim. */
+void pia_box_join(pia_box *box, int lanes, const double *low, const double *high);
 /* low, high [dim] of all points, infinite without any. Returns 0 when a component was not finite: they are then worthless. */
 int pia_box_close(const pia_box *box, double *low, double *high);
 

@@ -4,7 +4,7 @@
 #ifndef PIA_KERNEL_RUN_H
 #define PIA_KERNEL_RUN_H
 
-#include "pia/pia.h"
+#include "survey.h"
 
 typedef struct pia_run {
     int degree, dim;       /* dim 0: no points */
@@ -16,9 +16,10 @@ typedef struct pia_run {
     pia_index count;
 } pia_run;
 
-/* Adds to sums [dim + 2][degree + 1]: sum w T_j, sum w T_degree T_j, and for each component sum w T_j (q - origin). */
+/* Adds to sums [dim + 2][degree + 1]: sum w T_j, sum w T_degree T_j, and for each component sum w T_j (q - origin). The scout
+ * sees the rows as well, which begin where it is or before; NULL: none. */
 enum { PIA_RUN_SUMS = (PIA_MAX_DIM + 2) * (PIA_MAX_DEGREE + 1) };
-void pia_run_moments(const pia_run *run, double *sums);
+void pia_run_moments(const pia_run *run, pia_scout *scout, double *sums);
 
 typedef struct pia_run_errors {
     double sum_squares, weighted, worst; /* worst: largest square */

@@ -1,6 +1,7 @@
 /* In general: a table of polynomials, one of components, then products of the rows of the one with the rows of the other, four sums at
  * a time in registers. */
 #include "run_block.h"
+#include "run_cubics.h"
 
 enum { ROWS = PIA_MAX_DEGREE + 1, COLUMNS = PIA_MAX_DIM + 2 };
 
@@ -51,59 +52,49 @@ PIA_INLINE int fill(const pia_run *run, pia_index done, int count, block *b)
     return whole;
 }
 
-PIA_CLONES static void add_blocks(const pia_run *run, pia_index done, double *sums)
+PIA_CLONES static void add_blocks(const pia_run *run, pia_index done, pia_index to, double *sums)
 {
     block b;
     pia_lanes sum[COLUMNS][ROWS];
     int width = run->degree + 1, columns = run->dim + 2;
     for (int c = 0; c < columns; c++) memset(sum[c], 0, (size_t)width * sizeof(pia_lanes));
-    for (; done < run->count; done += PIA_BLOCK) {
-        int whole = fill(run, done, pia_block_count(run, done), &b);
+    for (; done < to; done += PIA_BLOCK) {
+        int whole = fill(run, done, to - done < PIA_BLOCK ? (int)(to - done) : PIA_BLOCK, &b);
         for (int c = 0; c < columns; c++) add_column(&b, run->degree, b.column[c], whole, sum[c]);
     }
     for (int c = 0; c < columns; c++)
         for (int j = 0; j < width; j++) sums[c * width + j] += pia_vector_sum(sum[c][j]);
 }
 
-/* Cubic, all weights 1: returns how many rows have been taken. */
-PIA_INLINE pia_index add_cubic(const pia_run *run, int dim, double *sums)
+/* The lanes together. */
+PIA_INLINE double sum_of(const double lane[PIA_CUBIC_LANES])
 {
-    pia_lanes plain[3] = {{0}}, product[3] = {{0}}, component[3][4] = {{{0}}};
-    pia_index done = 0;
-    for (; done + PIA_LANES <= run->count; done += PIA_LANES) {
-        const double *t = run->t + done, *q = run->points + done * dim;
-        pia_lanes p[3];
-        pia_run_fetch(t, q, dim);
-        pia_run_cubic(run, t, p);
-        for (int j = 0; j < 3; j++) plain[j] += p[j];
-        for (int j = 0; j < 3; j++) product[j] += p[2] * p[j];
-        for (int d = 0; d < dim; d++) {
-            pia_lanes value = pia_vector_component(q, dim, d) - run->origin[d];
-            component[d][0] += value;
-            for (int j = 0; j < 3; j++) component[d][j + 1] += value * p[j];
-        }
-    }
+    return pia_vector_sum(pia_vector_load(lane) + pia_vector_load(lane + PIA_LANES));
+}
+
+/* Cubic, all weights 1: returns how many rows have been taken. */
+static pia_index add_cubics(const pia_run *run, pia_scout *scout, double *sums)
+{
+    pia_run_cubics *best = pia_has_wide() ? pia_run_cubics_by_eight : pia_run_cubics_by_four;
+    double sum[PIA_CUBIC_SUMS][PIA_CUBIC_LANES] = {{0}};
+    pia_index done = run->count / PIA_CUBIC_LANES * PIA_CUBIC_LANES;
+    best(run, done, scout, sum);
     sums[0] += (double)done;
-    sums[4] += pia_vector_sum(plain[2]);
-    for (int j = 0; j < 3; j++) sums[j + 1] += pia_vector_sum(plain[j]);
-    for (int j = 0; j < 3; j++) sums[j + 5] += pia_vector_sum(product[j]);
-    for (int d = 0; d < dim; d++)
-        for (int j = 0; j < 4; j++) sums[8 + 4 * d + j] += pia_vector_sum(component[d][j]);
+    sums[4] += sum_of(sum[2]);
+    for (int j = 0; j < 3; j++) sums[j + 1] += sum_of(sum[j]);
+    for (int j = 0; j < 3; j++) sums[j + 5] += sum_of(sum[j + 3]);
+    for (int j = 0; j < 4 * run->dim; j++) sums[j + 8] += sum_of(sum[j + 6]);
     return done;
 }
 
-PIA_CLONES static pia_index add_cubics(const pia_run *run, double *sums)
+/* Rows that the scout sees first stay in the first-level cache. */
+void pia_run_moments(const pia_run *run, pia_scout *scout, double *sums)
 {
-    switch (run->dim) {
-    case 1: return add_cubic(run, 1, sums);
-    case 2: return add_cubic(run, 2, sums);
-    default: return add_cubic(run, 3, sums);
+    enum { AT_ONCE = 512 };
+    pia_index done = pia_run_is_cubic(run) && run->weights == NULL ? add_cubics(run, scout, sums) : 0;
+    for (pia_index to; done < run->count; done = to) {
+        to = run->count - done < AT_ONCE ? run->count : done + AT_ONCE;
+        if (scout != NULL) pia_scout_reach(scout, run->t + to - scout->parameters);
+        add_blocks(run, done, to, sums);
     }
-}
-
-void pia_run_moments(const pia_run *run, double *sums)
-{
-    pia_index done = 0;
-    if (pia_run_is_cubic(run) && run->weights == NULL) done = add_cubics(run, sums);
-    if (done < run->count) add_blocks(run, done, sums);
 }

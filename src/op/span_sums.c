@@ -9,9 +9,9 @@
 #include <string.h>
 
 /* Below so many points a function, evaluating them is cheaper than the change of basis: FEW to find errors, MANY to sum products.
- * PIECE: rows of a span that one task sums; longer spans are shared between tasks. GRAIN: rows a task gets when spans are short. BLOCK:
- * rows that are summed at a time. */
-enum { FEW = 2, MANY = 16, PIECE = 262144, GRAIN = 16384, MAX_CHUNKS = 256, BLOCK = 512 };
+ * PIECE: rows of a span that one task sums; longer spans are shared between tasks. GRAIN: rows a task gets when spans are short.
+ */
+enum { FEW = 2, MANY = 16, PIECE = 262144, GRAIN = 16384, MAX_CHUNKS = 256 };
 
 int pia_span_room(int degree, int dim)
 {
@@ -61,18 +61,15 @@ static void open_scout(const pia_span_data *data, pia_index from, pia_index to, 
     pia_scout_open(data->line->parameters, data->targets->points, data->targets->dim, from, to, out);
 }
 
-/* Rows from .. to - 1 of a run that begins with row `first` of the line, a block at a time, which the scout (NULL: none) sees first. */
-static void sum_rows(const pia_run *run, pia_index first, pia_index from, pia_index to, pia_scout *scout, double *sums)
+/* Rows from .. to - 1 of a run. */
+static void sum_rows(const pia_run *run, pia_index from, pia_index to, pia_scout *scout, double *sums)
 {
-    pia_run block = *run;
-    for (pia_index row = from; row < to; row += BLOCK) {
-        block.count = to - row < BLOCK ? to - row : BLOCK;
-        block.t = run->t + row;
-        if (run->points != NULL) block.points = run->points + row * run->dim;
-        if (run->weights != NULL) block.weights = run->weights + row;
-        if (scout != NULL) pia_scout_reach(scout, first + row + block.count);
-        pia_run_moments(&block, sums);
-    }
+    pia_run part = *run;
+    part.count = to - from;
+    part.t = run->t + from;
+    if (run->points != NULL) part.points = run->points + from * run->dim;
+    if (run->weights != NULL) part.weights = run->weights + from;
+    pia_run_moments(&part, scout, sums);
 }
 
 enum { AT_ONCE = 16 }; /* pieces of a long run */
@@ -92,7 +89,7 @@ static void sum_piece(void *work, pia_index chunk)
     pia_scout scout;
     memset(p->sums[chunk], 0, sizeof *p->sums);
     if (p->survey != NULL) open_scout(p->data, p->first + from, p->first + to, &scout);
-    sum_rows(p->run, p->first, from, to, p->survey != NULL ? &scout : NULL, p->sums[chunk]);
+    sum_rows(p->run, from, to, p->survey != NULL ? &scout : NULL, p->sums[chunk]);
     if (p->survey != NULL) p->survey[chunk] = pia_scout_close(&scout);
 }
 
@@ -173,7 +170,7 @@ static void sum_moments(const pia_span_data *data, const pia_chebyshev *c, pia_i
     double coefficient[(PIA_MAX_DEGREE + 1) * (PIA_MAX_DEGREE + 1)], sums[PIA_RUN_SUMS];
     pia_run run = centred_run(data, c, s, coefficient);
     memset(sums, 0, (size_t)((run.dim + 2) * (run.degree + 1)) * sizeof *sums);
-    sum_rows(&run, data->line->begin[s], 0, run.count, scout, sums);
+    pia_run_moments(&run, scout, sums);
     finish(data, &run, coefficient, sums, s, share);
 }
 

@@ -2,6 +2,7 @@
 #include "run.h"
 #include "box.h"
 #include "problems.h"
+#include "run_cubics.h"
 #include "survey.h"
 
 enum { MOST = 1100 };
@@ -39,7 +40,7 @@ static void moments_are_the_sums_of_their_definition(void **state)
             for (int k = 0; k < COUNTS; k++) {
                 fill(&r, counts[k], degree, dim);
                 memset(sums, 0, sizeof sums);
-                pia_run_moments(&r.run, sums);
+                pia_run_moments(&r.run, NULL, sums);
                 for (int c = 0; c < dim + 2; c++)
                     for (int j = 0; j <= degree; j++) {
                         double sum = 0;
@@ -51,6 +52,106 @@ static void moments_are_the_sums_of_their_definition(void **state)
                         }
                         assert_near(sums[c * (degree + 1) + j], sum, 1e-14 * 10 * (double)counts[k]);
                     }
+            }
+}
+
+enum { WHOLE = 1040 /* rows in eights, more than a block */ };
+
+/* What a pass with vectors of one width sums and sees of rows that may hold a strange one. */
+typedef struct pass {
+    double sum[PIA_CUBIC_SUMS][PIA_CUBIC_LANES];
+    pia_survey seen;
+} pass;
+
+static void take(const rows *r, pia_run_cubics *cubics, pass *out)
+{
+    pia_scout scout;
+    memset(out, 0, sizeof *out);
+    pia_scout_open(r->t, r->points, r->run.dim, 0, WHOLE, &scout);
+    cubics(&r->run, WHOLE, &scout, out->sum);
+    assert_int_equal(scout.next, WHOLE);
+    out->seen = pia_scout_close(&scout);
+}
+
+static void assert_same(const rows *r)
+{
+    pass four, eight;
+    if (!pia_has_wide()) return;
+    take(r, pia_run_cubics_by_four, &four);
+    take(r, pia_run_cubics_by_eight, &eight);
+    assert_memory_equal(four.sum, eight.sum, sizeof four.sum);
+    assert_int_equal(four.seen.ordered, eight.seen.ordered);
+    assert_int_equal(four.seen.finite, eight.seen.finite);
+    if (four.seen.finite) assert_memory_equal(four.seen.low, eight.seen.low, sizeof(double) * (size_t)r->run.dim);
+    if (four.seen.finite) assert_memory_equal(four.seen.high, eight.seen.high, sizeof(double) * (size_t)r->run.dim);
+}
+
+static void vectors_of_both_widths_sum_and_see_the_same(void **state)
+{
+    (void)state;
+    static rows r;
+    for (int dim = 1; dim <= 3; dim++) {
+        fill(&r, WHOLE, 3, dim);
+        assert_same(&r);
+        r.points[dim] = 1e308; /* finite, but their sum is not */
+        r.points[9 * dim] = 1.5e308;
+        assert_same(&r);
+    }
+}
+
+static void a_scout_sees_what_is_summed(void **state)
+{
+    (void)state;
+    static rows r;
+    for (int degree = 2; degree <= 3; degree++)
+        for (int dim = 1; dim <= 3; dim++) {
+            double sums[PIA_RUN_SUMS] = {0}, alone[PIA_RUN_SUMS] = {0};
+            pia_scout scout, apart;
+            fill(&r, MOST, degree, dim);
+            pia_scout_open(r.t, r.points, dim, 0, MOST, &scout);
+            pia_scout_open(r.t, r.points, dim, 0, MOST, &apart);
+            pia_run_moments(&r.run, &scout, sums);
+            pia_run_moments(&r.run, NULL, alone);
+            pia_scout_reach(&apart, MOST);
+            pia_survey a = pia_scout_close(&scout), b = pia_scout_close(&apart);
+            assert_memory_equal(sums, alone, sizeof sums);
+            assert_int_equal(scout.next, MOST);
+            assert_true(a.finite && a.ordered);
+            assert_memory_equal(a.low, b.low, sizeof(double) * (size_t)dim);
+            assert_memory_equal(a.high, b.high, sizeof(double) * (size_t)dim);
+        }
+}
+
+static void a_scout_notices_one_strange_row_among_those_summed(void **state)
+{
+    (void)state;
+    static rows r;
+    const double strange[] = {NAN, INFINITY, -INFINITY};
+    fill(&r, MOST, 3, 3);
+    for (pia_index at = 0; at < 3 * MOST; at += 7)
+        for (int k = 0; k < 3; k++) {
+            double sums[PIA_RUN_SUMS] = {0}, kept = r.points[at];
+            pia_scout scout;
+            r.points[at] = strange[k];
+            pia_scout_open(r.t, r.points, 3, 0, MOST, &scout);
+            pia_run_moments(&r.run, &scout, sums);
+            assert_false(pia_scout_close(&scout).finite);
+            r.points[at] = kept;
+        }
+    for (pia_index begin = 0; begin <= 8; begin += 8) /* also where the run is not the first one */
+        for (pia_index at = begin > 0 ? begin : 1; at < MOST; at++)
+            for (int nan = 0; nan < 2; nan++) {
+                double sums[PIA_RUN_SUMS] = {0}, kept = r.t[at];
+                pia_run run = r.run;
+                pia_scout scout;
+                run.t += begin;
+                run.points += 3 * begin;
+                run.count -= begin;
+                r.t[at] = nan ? NAN : r.t[at - 1] - 1e-9;
+                pia_scout_open(r.t, r.points, 3, begin, MOST, &scout);
+                pia_run_moments(&run, &scout, sums);
+                assert_false(pia_scout_close(&scout).ordered);
+                r.t[at] = kept;
             }
 }
 
@@ -158,6 +259,9 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(moments_are_the_sums_of_their_definition),
+        cmocka_unit_test(vectors_of_both_widths_sum_and_see_the_same),
+        cmocka_unit_test(a_scout_sees_what_is_summed),
+        cmocka_unit_test(a_scout_notices_one_strange_row_among_those_summed),
         cmocka_unit_test(errors_are_those_of_the_polynomial),
         cmocka_unit_test(a_box_does_not_depend_on_how_rows_are_cut),
         cmocka_unit_test(one_number_that_is_none_is_noticed_wherever_it_is),
