@@ -17,6 +17,21 @@ void pia_band_ldl_solve(const double *ldl, pia_index n, int width, double *b, in
 pia_index pia_band_cyclic_factor(double *h, pia_index n, int width, double threshold, double *border);
 void pia_band_cyclic_solve(const double *ldl, const double *border, pia_index n, int width, double *b, int dim);
 
+/* One such band and right-hand side, cyclic where it wraps. */
+typedef struct pia_band_system {
+    const double *h, *b; /* [n x (width + 1)], [n x dim] */
+    pia_index n;
+    int width, dim, wraps;
+    double threshold; /* of pivots, relative to the original diagonal */
+} pia_band_system;
+
+/* Solves it once, by all threads, with the same bits whatever their number, in windows of rows with a margin on both sides. The inverse
+ * of a Gram matrix of B-splines decays exponentially away from its diagonal, so that a window with its margin knows its unknowns to
+ * rounding; where data are so uneven that the margin is short, x [n x dim] is an approximation, which who calls looks at. *done = 0
+ * where a pivot is refused: x is worthless then. n and width have to suit. Errors: PIA_E_MEMORY. */
+int pia_band_windows_suit(pia_index n, int width);
+pia_status pia_band_windows_solve(pia_context *context, const pia_band_system *system, double *x, int *done);
+
 /* Square rows of a collocation matrix: row i has `width` entries, first[i] is the column of its first one, a[i * width + k] the
  * entry (i, first[i] + k); first is non-decreasing. Factors without pivoting, which is stable for the totally positive matrices of
  * B-spline interpolation (de Boor, Pinkus 1977). U has ones on its diagonal; L holds the pivots. width <= PIA_MAX_DEGREE + 1, and every
