@@ -89,19 +89,36 @@ static int is_plain(const pia_fit *fit)
 {
     const pia_fit_options *o = &fit->options;
     int asked = o->tolerance > 0 || o->time_limit > 0 || o->trace_every > 0 || o->progress != NULL || o->max_iterations == 0;
-    return fit->borrowed && !fit->careful && fit->square && (fit->solve.method->needs & PIA_IS_FINITE) != 0 && !asked &&
-           o->start == NULL && o->freeze_count == 0 && o->constraint_count == 0 && o->join_count == 0;
+    return fit->borrowed && !fit->careful && (fit->solve.method->needs & PIA_IS_FINITE) != 0 && !asked && o->start == NULL &&
+           o->freeze_count == 0 && o->interpolate_count == 0 && o->constraint_count == 0 && o->join_count == 0;
 }
 
 int pia_fit_is_one_step(const pia_fit *fit)
 {
-    return is_plain(fit) && (pia_windows_suit(fit->op) || pia_square_grid_suits(fit->op, fit->dim));
+    return fit->square && is_plain(fit) && (pia_windows_suit(fit->op) || pia_square_grid_suits(fit->op, fit->dim));
+}
+
+/* Whether least squares may come out in one step, which needs no start then. */
+static int is_leap(const pia_fit *fit)
+{
+    const pia_fit_options *o = &fit->options;
+    return !fit->square && fit->kind == PIA_CURVE && is_plain(fit) && fit->solve.method->step != NULL && fit->solve.limiter == NULL &&
+           !fit->refining && fit->sequence == NULL && fit->robust.loss == PIA_LOSS_NONE && !(o->fairing > 0) && !(o->correct > 0);
+}
+
+/* The `start` of an iterate. */
+static pia_status start_late(void *owner)
+{
+    pia_fit *fit = owner;
+    fit->iterate.points = pia_take(fit->context, fit->op->cols * fit->dim, sizeof(double));
+    fit->iterate.start = NULL;
+    return fit->iterate.points != NULL ? pia_fit_initial(fit) : PIA_E_MEMORY;
 }
 
 int pia_fit_is_trusting(const pia_fit *fit)
 {
     int knots = fit->options.knots[0] != NULL && (fit->directions == 1 || fit->options.knots[1] != NULL);
-    if (!fit->unseen || !is_plain(fit) || !knots || fit->solve.limiter != NULL) return 0;
+    if (!fit->square || !fit->unseen || !is_plain(fit) || !knots || fit->solve.limiter != NULL) return 0;
     return fit->directions == 1 ? pia_windows_suit_rows(fit->rows, fit->degree[0]) : pia_square_grid_suits_counts(fit->count, fit->dim);
 }
 
@@ -126,6 +143,8 @@ static pia_status take_iterate(pia_fit *fit)
     int blank = pia_fit_is_one_step(fit); /* control points need not start as a copy of the data, nor count from their middle */
     if (blank) memset(fit->origin, 0, sizeof fit->origin);
     if (blank && fit->unseen) iterate->look = look;
+    if (is_leap(fit)) iterate->start = start_late;
+    blank |= iterate->start != NULL;
     if (!blank) iterate->points = pia_take(fit->context, size, sizeof(double));
     iterate->adjust = pia_take(fit->context, size, sizeof(double));
     if ((!blank && iterate->points == NULL) || iterate->adjust == NULL) return PIA_E_MEMORY;
@@ -151,10 +170,7 @@ static pia_status scale_gradient(pia_fit *fit)
 {
     pia_iterate *iterate = &fit->iterate;
     if (fit->square || pia_fit_is_grouped(fit)) return PIA_OK;
-    if (iterate->normal != NULL) {
-        iterate->right_norm = sqrt(pia_iterate_dot(iterate, iterate->normal->right, iterate->normal->right));
-        return PIA_OK;
-    }
+    if (iterate->normal != NULL) return PIA_OK;
     size_t bytes = (size_t)(fit->op->cols * fit->dim) * sizeof(double);
     memset(iterate->adjust, 0, bytes);
     pia_op_residual(fit->op, iterate->adjust, &iterate->targets, iterate->residual);

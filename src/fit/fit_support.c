@@ -196,7 +196,8 @@ pia_status pia_fit_support(pia_fit *fit)
     if (fit->square || fit->normal == NULL) return PIA_OK;
     pia_status status = find_unsupported(fit);
     if (status != PIA_OK || fit->unsupported_count == 0 || fit->options.fairing > 0) return status;
-    return hold(fit);
+    if (fit->iterate.start != NULL) status = fit->iterate.start(fit);
+    return status == PIA_OK ? hold(fit) : status;
 }
 
 void pia_fit_describe_support(pia_fit *fit)

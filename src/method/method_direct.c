@@ -15,12 +15,16 @@ static const double MISSED = 1e-6;  /* of the extent: by more than this constrai
 
 typedef struct direct {
     double steps, left; /* what the step before left: the largest error, or the relative gradient */
+    int factored;
 } direct;
 
-/* Whether the step before left an interpolation that needs no other, as it told itself: then no residual is needed to see it. */
-static int is_settled(const pia_iterate *iterate, double steps)
+/* Whether the step before left what needs no other: an interpolation that told it itself, or a gradient whose length, which takes no
+ * array, is rounding. */
+static int is_settled(pia_iterate *iterate, const direct *d)
 {
-    return steps > 0 && iterate->square && iterate->errors_known && iterate->errors.max / iterate->extent <= ENOUGH;
+    if (!(d->steps > 0)) return 0;
+    if (iterate->square) return iterate->errors_known && iterate->errors.max / iterate->extent <= ENOUGH;
+    return iterate->constraints == NULL && pia_iterate_gradient_length(iterate) && iterate->relative_gradient <= ENOUGH;
 }
 
 /* Residuals go straight into D, so that no second array of them is needed. */
@@ -47,21 +51,23 @@ static double remaining_gradient(pia_iterate *iterate)
     return iterate->relative_gradient = fmax(iterate->relative_gradient, violation);
 }
 
-static pia_status solve(pia_iterate *iterate, double steps)
+static pia_status solve(pia_iterate *iterate, direct *d)
 {
     if (iterate->square) {
         pia_op_mask(iterate->op, iterate->adjust, iterate->dim);
         return pia_square_solve(iterate->op, iterate->adjust, iterate->dim);
     }
-    pia_status status = steps == 0 ? iterate->normal->class->factor(iterate->normal) : PIA_OK;
     pia_normal *normal = iterate->normal;
+    int first = !d->factored;
+    pia_status status = first ? normal->class->factor(normal) : PIA_OK;
+    d->factored = 1;
     if (status == PIA_OK && normal->delicate)
         status = normal->class->correct(normal, &iterate->targets, iterate->points, iterate->adjust);
     if (status == PIA_OK && !normal->delicate) normal->class->solve(normal, iterate->adjust, iterate->dim);
     pia_op_mask(iterate->op, iterate->adjust, iterate->dim);
     if (status != PIA_OK || iterate->constraints == NULL) return status;
-    if (steps == 0) status = pia_constraints_factor(iterate->constraints, iterate->normal);
-    return status == PIA_OK ? pia_constraints_correct(iterate->constraints, iterate->normal, iterate->points, iterate->adjust) : status;
+    if (first) status = pia_constraints_factor(iterate->constraints, normal);
+    return status == PIA_OK ? pia_constraints_correct(iterate->constraints, normal, iterate->points, iterate->adjust) : status;
 }
 
 static pia_status adjust(pia_iterate *iterate, void *state)
@@ -69,22 +75,23 @@ static pia_status adjust(pia_iterate *iterate, void *state)
     direct *d = state;
     if (!iterate->square && iterate->normal == NULL)
         return pia_fail(iterate->context, PIA_E_ARGUMENT, "direct has no normal equations here; use cg");
-    iterate->finished = is_settled(iterate, d->steps);
+    iterate->finished = is_settled(iterate, d);
     if (iterate->finished) return PIA_OK;
     double left = iterate->square ? remaining_error(iterate) : remaining_gradient(iterate);
     iterate->finished = d->steps > 0 && (left <= ENOUGH || left > d->left / 4 || d->steps >= ENOUGH_STEPS);
     if (iterate->finished) return PIA_OK;
-    pia_status status = solve(iterate, d->steps);
+    pia_status status = solve(iterate, d);
     d->left = left;
     d->steps++;
     return status;
 }
 
-/* The targets become control points, for a step that needs them as numbers. */
+/* For a step that needs control points as numbers: those of the start, or the targets. */
 static pia_status take_points(pia_iterate *iterate)
 {
     pia_index count = iterate->op->cols * iterate->dim;
     if (iterate->points != NULL) return PIA_OK;
+    if (iterate->start != NULL) return iterate->start(iterate->owner);
     iterate->points = pia_take(iterate->context, count, sizeof *iterate->points);
     if (iterate->points == NULL) return PIA_E_MEMORY;
     for (pia_index i = 0; i < count; i++) iterate->points[i] = iterate->targets.points[i] - iterate->targets.origin[i % iterate->dim];
@@ -133,14 +140,33 @@ static int goes_at_once(const pia_iterate *iterate, const direct *d)
     return pia_windows_suit(iterate->op) || (iterate->points == NULL && pia_square_grid_suits(iterate->op, iterate->dim));
 }
 
+/* From control points that are all 0. */
+static pia_status leap(pia_iterate *iterate, direct *d, int *done)
+{
+    const pia_normal *normal = iterate->normal;
+    pia_status status = normal->class->leap(normal, iterate->dim, iterate->adjust, done);
+    if (status != PIA_OK || !*done) return status;
+    iterate->relative_gradient = d->left = 1;
+    iterate->adjust_max = pia_iterate_longest(iterate, iterate->adjust);
+    d->steps++;
+    return PIA_OK;
+}
+
+static int may_leap(const pia_iterate *iterate)
+{
+    const pia_normal *normal = iterate->normal;
+    return iterate->points == NULL && iterate->start != NULL && normal != NULL && normal->class->leap != NULL;
+}
+
 static pia_status step(pia_iterate *iterate, void *state)
 {
     direct *d = state;
     int done = 0;
-    iterate->finished = is_settled(iterate, d->steps);
+    iterate->finished = is_settled(iterate, d);
     if (iterate->finished) return PIA_OK;
     pia_status status = take_adjust(iterate);
     if (status == PIA_OK && goes_at_once(iterate, d)) status = step_at_once(iterate, d, &done);
+    if (status == PIA_OK && may_leap(iterate)) status = leap(iterate, d, &done);
     if (status != PIA_OK || done) return status;
     status = take_points(iterate);
     if (status == PIA_OK) status = adjust(iterate, state);

@@ -7,7 +7,7 @@
 #include <math.h>
 #include <string.h>
 
-enum { GRAIN = 16384 }; /* numbers a thread should get at least */
+enum { GRAIN = 16384 /* numbers a thread should get at least */, MAX_CHUNKS = 256 };
 
 static const double weak_pivot = 1e-13, ridge = 1e-9;
 
@@ -133,6 +133,45 @@ void pia_gram_multiply(const pia_gram *gram, const double *x, pia_index before, 
     product p = {gram, x, before * gram->count, after, 1, y};
     p.chunks = pia_chunk_count(p.rows * after, GRAIN);
     pia_for_each(gram->context, p.chunks, multiply_chunk, &p);
+}
+
+typedef struct residual {
+    const pia_gram *gram;
+    const double *x, *b;
+    double *r, *square; /* r [count x dim] or NULL; square [chunks] */
+    pia_index chunks;
+    int dim;
+} residual;
+
+PIA_INLINE double subtract_rows(const residual *s, pia_index from, pia_index end, int dim)
+{
+    double sum[PIA_MAX_DIM], square = 0;
+    for (pia_index i = from; i < end; i++) {
+        multiply_row(s->gram, i, s->x, dim, sum);
+        for (int d = 0; d < dim; d++) {
+            double difference = s->b[i * dim + d] - sum[d];
+            square += difference * difference;
+            if (s->r != NULL) s->r[i * dim + d] = difference;
+        }
+    }
+    return square;
+}
+
+PIA_CLONES static void subtract_chunk(void *work, pia_index chunk)
+{
+    const residual *s = work;
+    pia_index from = pia_chunk_begin(s->gram->count, s->chunks, chunk), end = pia_chunk_begin(s->gram->count, s->chunks, chunk + 1);
+    s->square[chunk] = s->dim == 3 ? subtract_rows(s, from, end, 3) : subtract_rows(s, from, end, s->dim);
+}
+
+double pia_gram_residual(const pia_gram *gram, const double *x, const double *b, int dim, double *r)
+{
+    double square[MAX_CHUNKS], sum = 0;
+    pia_index chunks = pia_chunk_count(gram->count * dim, GRAIN);
+    residual s = {gram, x, b, r, square, chunks < MAX_CHUNKS ? chunks : MAX_CHUNKS, dim};
+    pia_for_each(gram->context, s.chunks, subtract_chunk, &s);
+    for (pia_index c = 0; c < s.chunks; c++) sum += square[c];
+    return sum;
 }
 
 static void relax_row(const product *p, const unsigned char *frozen, const double *diagonal, const double *b, pia_index i, double *x)
@@ -298,4 +337,11 @@ void pia_gram_solve(const pia_gram *gram, double *b, pia_index before, pia_index
     s.chunks = pia_chunk_count(before * gram->count * after, GRAIN);
     if (s.chunks > before) s.chunks = before > 0 ? before : 1;
     pia_for_each(gram->context, s.chunks, solve_chunk, &s);
+}
+
+pia_status pia_gram_leap(const pia_gram *gram, const double *b, int dim, double *x, int *done)
+{
+    pia_band_system system = {gram->band, b, gram->count, gram->width, dim, gram->line->map == PIA_MAP_CYCLIC, weak_pivot};
+    *done = 0;
+    return pia_band_windows_suit(gram->count, gram->width) ? pia_band_windows_solve(gram->context, &system, x, done) : PIA_OK;
 }

@@ -42,5 +42,10 @@ void pia_gram_sweep(const pia_gram *gram, const unsigned char *frozen, const dou
 pia_status pia_gram_factor(pia_gram *gram, const unsigned char *frozen);
 /* b [before x count x after] := G^-1 b. */
 void pia_gram_solve(const pia_gram *gram, double *b, pia_index before, pia_index after);
+/* x := G^-1 b once, without a factor, [count x dim], as pia_band_windows_solve does it. *done = 0 where this matrix is too small for
+ * that or singular to working precision. Errors: PIA_E_MEMORY. */
+pia_status pia_gram_leap(const pia_gram *gram, const double *b, int dim, double *x, int *done);
+/* Sum of squares of b - G x [count x dim], in fixed order; r receives the difference, NULL: it is not wanted. */
+double pia_gram_residual(const pia_gram *gram, const double *x, const double *b, int dim, double *r);
 
 #endif

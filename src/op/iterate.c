@@ -95,9 +95,31 @@ void pia_iterate_measure(pia_iterate *iterate)
     iterate->errors_known = 1;
 }
 
+static void set_gradient(pia_iterate *iterate, double norm)
+{
+    iterate->relative_gradient = iterate->right_norm > 0 ? norm / iterate->right_norm : norm;
+}
+
+static int has_residual(const pia_iterate *iterate)
+{
+    return iterate->normal != NULL && iterate->normal->class->residual != NULL && iterate->op->frozen == NULL;
+}
+
+int pia_iterate_gradient_length(pia_iterate *iterate)
+{
+    const pia_normal *normal = iterate->normal;
+    if (!has_residual(iterate)) return 0;
+    set_gradient(iterate, sqrt(normal->class->residual(normal, iterate->points, iterate->dim, NULL)));
+    return 1;
+}
+
 void pia_iterate_gradient(pia_iterate *iterate, double *gradient)
 {
     const pia_normal *normal = iterate->normal;
+    if (has_residual(iterate)) {
+        set_gradient(iterate, sqrt(normal->class->residual(normal, iterate->points, iterate->dim, gradient)));
+        return;
+    }
     if (normal != NULL) {
         pia_index count = iterate->op->cols * iterate->dim;
         addition a = {gradient, normal->right, count, chunk_count(count)};
@@ -108,7 +130,5 @@ void pia_iterate_gradient(pia_iterate *iterate, double *gradient)
         pia_iterate_measure(iterate);
         pia_op_gather(iterate->op, iterate->residual, iterate->op->weights, iterate->dim, gradient);
     }
-    double norm = sqrt(pia_iterate_dot(iterate, gradient, gradient));
-    if (iterate->right_norm > 0) norm /= iterate->right_norm;
-    iterate->relative_gradient = norm;
+    set_gradient(iterate, sqrt(pia_iterate_dot(iterate, gradient, gradient)));
 }

@@ -14,7 +14,8 @@ typedef struct pia_iterate {
     pia_targets targets;
     int dim;
     double extent;                       /* diagonal of the data's bounding box, > 0 */
-    double *points;                      /* P [cols x dim], centred on the targets' origin; NULL: the targets, until the first step */
+    double *points;                      /* P [cols x dim], centred on the targets' origin; NULL until the first step, where that does
+                                            not ask for it: interpolation then starts from the targets, least squares where `start` says */
     double *adjust;                      /* D [cols x dim]; a fused step writes the next P here instead; NULL after such a step where
                                             P was NULL */
     double *residual;                    /* R [rows x dim]; NULL unless the method needs rows or there is no normal form */
@@ -38,7 +39,8 @@ typedef struct pia_iterate {
                                                            not offered */
     pia_status (*look)(void *owner, const struct pia_survey *survey); /* takes what a step has seen of points that nobody looked at
                                                                          before, and sets extent; NULL: they are known */
-    void *owner;                                                      /* of project and look */
+    pia_status (*start)(void *owner); /* makes P of least squares, for a step that asks for it; NULL where P is there already */
+    void *owner;                      /* of project, look and start */
 } pia_iterate;
 
 /* R and errors of the current P (one pass over the data); nothing when they are known. */
@@ -46,6 +48,8 @@ void pia_iterate_measure(pia_iterate *iterate);
 /* G [cols x dim] = A'W(Q - A P), zero where frozen: from the normal form, or from R (which pia_iterate_measure has filled). Sets
  * relative_gradient. */
 void pia_iterate_gradient(pia_iterate *iterate, double *gradient);
+/* relative_gradient alone, in one pass that writes nothing; returns 0 where there is no such pass. */
+int pia_iterate_gradient_length(pia_iterate *iterate);
 /* Sum of products of x and y [cols x dim], in fixed order; and the largest Euclidean length of a row of x. */
 double pia_iterate_dot(const pia_iterate *iterate, const double *x, const double *y);
 double pia_iterate_longest(const pia_iterate *iterate, const double *x);

@@ -25,6 +25,11 @@ typedef struct pia_normal_class {
                                                                                         solve is as exact from then on */
     pia_status (*approximate)(pia_normal *normal);                      /* before precondition, and after every change; NULL: factor */
     void (*precondition)(const pia_normal *normal, double *b, int dim); /* b := M^-1 b, M close to H; NULL: solve */
+    pia_status (*leap)(const pia_normal *normal, int dim, double *x, int *done); /* x := H^-1 b, at once and nearly to rounding, where
+                                                                     nothing is frozen; else *done = 0. NULL: there is no way */
+    double (*residual)(const pia_normal *normal, const double *x, int dim,
+                       double *r); /* sum of squares of b - H x where
+                 nothing is frozen; r receives it, NULL: unwanted. NULL: by multiply */
     void (*refresh)(pia_normal *normal, const pia_targets *targets, pia_index first_row, pia_index last_row);
     void (*close)(pia_normal *normal);
 } pia_normal_class;

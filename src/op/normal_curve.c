@@ -179,6 +179,20 @@ static void solve(const pia_normal *normal, double *b, int dim)
         pia_gram_solve(&c->gram, b, 1, dim);
 }
 
+static pia_status leap(const pia_normal *normal, int dim, double *x, int *done)
+{
+    const curve *c = normal->state;
+    *done = 0;
+    if (normal->op->frozen != NULL || c->gram.width >= HIGH_DEGREE) return PIA_OK;
+    return pia_gram_leap(&c->gram, normal->right, dim, x, done);
+}
+
+static double residual(const pia_normal *normal, const double *x, int dim, double *r)
+{
+    const curve *c = normal->state;
+    return pia_gram_residual(&c->gram, x, normal->right, dim, r);
+}
+
 static void sweep(const pia_normal *normal, double *x, int dim)
 {
     const curve *c = normal->state;
@@ -217,6 +231,8 @@ static const pia_normal_class banded = {.name = "banded",
                                         .sides = PIA_LDL_SIDES,
                                         .correct = correct,
                                         .sweep = sweep,
+                                        .leap = leap,
+                                        .residual = residual,
                                         .refresh = refresh,
                                         .close = close};
 
