@@ -64,8 +64,13 @@ static void find_begins(pia_context *context, pia_collocation *c)
     pia_index last = c->last - c->degree;
     search b = {c, pia_chunk_count(last + 1, GRAIN)};
     pia_for_each(context, b.chunks, find_chunk, &b);
-    for (pia_index s = 1; s <= last; s++)
+    c->most = 0;
+    for (pia_index s = 1; s <= last; s++) {
         if (c->begin[s] < c->begin[s - 1]) c->begin[s] = c->begin[s - 1];
+        pia_index rows = c->begin[s] - c->begin[s - 1];
+        if (rows > c->most) c->most = rows;
+    }
+    if (c->rows - c->begin[last] > c->most) c->most = c->rows - c->begin[last];
     for (pia_index s = last + 1; s <= spans(c); s++) c->begin[s] = c->rows;
 }
 

@@ -19,6 +19,7 @@ typedef struct pia_collocation {
     const double *parameters; /* [rows], non-decreasing, inside the domain, borrowed */
     pia_index last;           /* the last span that is not empty; it owns the right end of the domain */
     pia_index *begin;         /* [full - degree + 1]: rows of span degree + s are begin[s] .. begin[s + 1] - 1; NULL: not kept */
+    pia_index most;           /* rows of a span at most, where begins are kept */
     double *values;           /* [rows x (degree + 1)] basis values, or NULL: evaluated where needed */
     pia_index offset;         /* cyclic: full column i is unknown (i + offset) mod unknowns; interpolation chooses it so that unknown c
                                  is centred on row c */

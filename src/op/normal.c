@@ -1,6 +1,7 @@
 #include "normal.h"
 
 #include "energy.h"
+#include "kernel.h"
 
 static pia_status take_arrays(pia_normal *normal, int dim)
 {
@@ -72,14 +73,30 @@ void pia_normal_add_pull(pia_normal *normal, int dim)
     pia_op_mask(normal->op, normal->right, dim);
 }
 
+typedef struct move {
+    pia_normal *normal;
+    double shift[PIA_MAX_DIM];
+    pia_index from, count, chunks;
+    int dim;
+} move;
+
+static void move_chunk(void *work, pia_index chunk)
+{
+    const move *m = work;
+    const double *sum = m->normal->column_sum;
+    double *right = m->normal->right;
+    pia_index end = m->from + pia_chunk_begin(m->count, m->chunks, chunk + 1);
+    for (pia_index i = m->from + pia_chunk_begin(m->count, m->chunks, chunk); i < end; i++)
+        for (int d = 0; d < m->dim; d++) right[i * m->dim + d] += m->shift[d] * sum[i];
+}
+
 void pia_normal_move(pia_normal *normal, const pia_targets *targets, pia_index from, pia_index to)
 {
-    int dim = targets->dim;
-    double shift[PIA_MAX_DIM];
-    for (int d = 0; d < dim; d++) shift[d] = targets->points[d] - targets->origin[d];
-    for (pia_index i = from; i < to; i++)
-        for (int d = 0; d < dim; d++) normal->right[i * dim + d] += shift[d] * normal->column_sum[i];
-    pia_op_mask(normal->op, normal->right, dim);
+    enum { GRAIN = 8192 };
+    move m = {.normal = normal, .from = from, .count = to - from, .chunks = pia_chunk_count(to - from, GRAIN), .dim = targets->dim};
+    for (int d = 0; d < m.dim; d++) m.shift[d] = targets->points[d] - targets->origin[d];
+    pia_for_each(normal->op->context, m.chunks, move_chunk, &m);
+    pia_op_mask(normal->op, normal->right, m.dim);
 }
 
 void pia_normal_refresh(pia_normal *normal, const pia_targets *targets, pia_index first_row, pia_index last_row)

@@ -1,23 +1,28 @@
-/* The normal form of a curve: shares of knot spans, made a batch at a time and put together at once, so that they need not be kept. A
- * control row sums the shares of its degree + 1 spans in their order; an edit sums again only the rows it touches. */
+/* The normal form of a curve: shares of knot spans, which control rows sum in their order, degree + 1 each, as soon as they are made,
+ * so that they need not be kept: by pieces of control rows, one a thread, where there are many spans of few rows; else a batch of spans
+ * at a time, whose rows all threads share. An edit sums again only the rows it touches. */
 #include "clones.h"
 #include "energy.h"
 #include "kernel.h"
 #include "normal.h"
 #include "orthogonal.h"
+#include "rooms.h"
 #include "span_sums.h"
 
 #include <string.h>
 
 /* HIGH_DEGREE: from here on H has too few digits: its condition is 1e9 at degree 10, 2e11 at 25. GRAIN: control rows a thread should
- * get at least. BATCH: spans at a time, whose shares stay in the outermost cache. */
-enum { HIGH_DEGREE = 10, GRAIN = 1024, BATCH = 16384 };
+ * get at least. BATCH: spans at a time, whose shares stay in the outermost cache. PIECE: control rows, whose shares stay in the second
+ * one. FEW: rows a span at most where pieces sum those of their seams twice. */
+enum { HIGH_DEGREE = 10, GRAIN = 1024, BATCH = 16384, PIECE = 512, FEW = 256 };
 
 typedef struct curve {
     pia_gram gram;
     pia_band_qr orthogonal; /* R of the rows, once `correct` was called; empty before */
-    double *share;          /* [degree + BATCH or all spans x room] */
-    int room;
+    int room;               /* doubles of a share */
+    double *share;          /* of a batch [degree + BATCH or all spans x room]; NULL: by pieces */
+    pia_rooms rooms;        /* for the shares of pieces */
+    pia_survey *seen;       /* [pieces of all control rows] */
 } curve;
 
 static pia_index spans(const pia_collocation *line)
@@ -46,31 +51,84 @@ typedef struct batch {
     int dim;
 } batch;
 
-/* What span s has to say of the control rows from .. to - 1. */
-PIA_INLINE void add_span(const batch *b, pia_index s, pia_index from, pia_index to, int width, int dim)
+/* What function k of a span has to say of its control row. */
+typedef struct control_row {
+    double product[PIA_MAX_DEGREE + 1], sum, right[PIA_MAX_DIM];
+} control_row;
+
+PIA_INLINE void add_function(const batch *b, pia_index s, int k, int width, int dim, control_row *out)
+{
+    const curve *c = b->normal->state;
+    const double *share = b->share + (s - b->first) * c->room, *row = share, *right = share + width * (width + 1) / 2;
+    const double *origin = right + width * dim;
+    double sum = 0;
+    for (int l = 0; l < k; row += width - l, l++) sum += row[k - l];
+    for (int l = k; l < width; l++) sum += row[l - k];
+    for (int l = k; l < width; l++) out->product[l - k] += row[l - k];
+    for (int d = 0; d < dim; d++) out->right[d] += right[k * dim + d] + (origin[d] - b->reference[d]) * sum;
+    out->sum += sum;
+}
+
+/* Control row i, which is no copy, from all of its spans. */
+PIA_INLINE void make_row(const batch *b, pia_index i, int width, int dim)
+{
+    pia_normal *normal = b->normal;
+    const curve *c = normal->state;
+    control_row row = {{0}, 0, {0}};
+    pia_index spans_of_line = spans(c->gram.line);
+    if (i >= width - 1 && i < spans_of_line)
+        for (int k = width - 1; k >= 0; k--) add_function(b, i - k, k, width, dim, &row);
+    else
+        for (int k = width - 1; k >= 0; k--)
+            if (i >= k && i - k < spans_of_line) add_function(b, i - k, k, width, dim, &row);
+    for (int l = 0; l < width; l++) c->gram.band[i * width + l] = row.product[l];
+    for (int d = 0; d < dim; d++) normal->right[i * dim + d] = row.right[d];
+    normal->diagonal[i] = row.product[0];
+    normal->column_sum[i] = row.sum;
+}
+
+/* The cubic in space is what nearly everybody fits. */
+PIA_CLONES static void make_rows(const batch *b, pia_index from, pia_index to)
+{
+    int width = b->normal->op->line[0]->degree + 1;
+    for (pia_index i = from; i < to; i++)
+        if (width == 4 && b->dim == 3)
+            make_row(b, i, 4, 3);
+        else
+            make_row(b, i, width, b->dim);
+}
+
+/* What span s has to say of its control rows, where some are copies. */
+static void add_span(const batch *b, pia_index s)
 {
     pia_normal *normal = b->normal;
     curve *c = normal->state;
+    int width = c->gram.width + 1, dim = b->dim;
     const double *row = b->share + (s - b->first) * c->room, *right = row + width * (width + 1) / 2, *origin = right + width * dim;
     double sum[PIA_MAX_DEGREE + 1];
     sum_functions(row, width, sum);
     for (int k = 0; k < width; row += width - k, k++) {
-        if (s + k < from || s + k >= to) continue;
         pia_index unknown = pia_collocation_unknown(c->gram.line, s + k);
+        if (s + k < b->from || s + k >= b->to) continue;
         pia_gram_add_row(&c->gram, s, k, row);
         normal->column_sum[unknown] += sum[k];
         for (int d = 0; d < dim; d++) normal->right[unknown * dim + d] += right[k * dim + d] + (origin[d] - b->reference[d]) * sum[k];
     }
 }
 
-/* Of unknowns, where no two control rows are copies of one; of all unknowns where some are. */
-static void clear_rows(pia_normal *normal, pia_index from, pia_index to, int dim)
+static void add_spans(const batch *b)
+{
+    pia_index first = b->from - b->normal->op->line[0]->degree;
+    for (pia_index s = first > b->first ? first : b->first; s < b->end && s < b->to; s++) add_span(b, s);
+}
+
+static void clear(pia_normal *normal, int dim)
 {
     curve *c = normal->state;
-    size_t count = (size_t)(to - from);
-    memset(c->gram.band + from * (c->gram.width + 1), 0, count * (size_t)(c->gram.width + 1) * sizeof *c->gram.band);
-    memset(normal->right + from * dim, 0, count * (size_t)dim * sizeof *normal->right);
-    memset(normal->column_sum + from, 0, count * sizeof *normal->column_sum);
+    size_t count = (size_t)c->gram.count;
+    pia_gram_clear(&c->gram);
+    memset(normal->right, 0, count * (size_t)dim * sizeof *normal->right);
+    memset(normal->column_sum, 0, count * sizeof *normal->column_sum);
 }
 
 static int has_copies(const pia_collocation *line)
@@ -78,24 +136,15 @@ static int has_copies(const pia_collocation *line)
     return line->map != PIA_MAP_IDENTITY;
 }
 
-/* Control rows are independent where none is a copy. */
-static void assemble_chunk(void *work, pia_index chunk)
+/* Control rows that are no copies are independent. */
+static void make_chunk(void *work, pia_index chunk)
 {
     const batch *b = work;
-    const pia_collocation *line = b->normal->op->line[0];
-    pia_index from = b->from + pia_chunk_begin(b->to - b->from, b->chunks, chunk);
-    pia_index to = b->from + pia_chunk_begin(b->to - b->from, b->chunks, chunk + 1);
-    pia_index first = from - line->degree > b->first ? from - line->degree : b->first, end = to < b->end ? to : b->end;
-    if (!has_copies(line)) clear_rows(b->normal, from, to, b->dim);
-    for (pia_index s = first; s < end; s++)
-        if (line->degree == 3 && b->dim == 3)
-            add_span(b, s, from, to, 4, 3);
-        else
-            add_span(b, s, from, to, line->degree + 1, b->dim);
+    pia_index count = b->to - b->from;
+    make_rows(b, b->from + pia_chunk_begin(count, b->chunks, chunk), b->from + pia_chunk_begin(count, b->chunks, chunk + 1));
 }
 
-/* Control rows from .. to - 1 from the data, with right-hand sides relative to the first row of data. survey NULL: unwanted. */
-static void sum_rows(pia_normal *normal, const pia_targets *targets, pia_index from, pia_index to, pia_survey *survey)
+static void sum_batches(pia_normal *normal, const pia_targets *targets, pia_index from, pia_index to, pia_survey *survey)
 {
     curve *c = normal->state;
     const pia_collocation *line = c->gram.line;
@@ -110,12 +159,58 @@ static void sum_rows(pia_normal *normal, const pia_targets *targets, pia_index f
         b.first = next - kept;
         b.end = end;
         b.to = end < stop ? end : to;
-        b.chunks = has_copies(line) ? 1 : pia_chunk_count(b.to - b.from, GRAIN);
-        pia_for_each(normal->op->context, b.chunks, assemble_chunk, &b);
+        b.chunks = pia_chunk_count(b.to - b.from, GRAIN);
+        if (has_copies(line))
+            add_spans(&b);
+        else
+            pia_for_each(normal->op->context, b.chunks, make_chunk, &b);
         b.from = b.to;
         kept = line->degree;
         if (end < stop) memmove(c->share, c->share + (end - kept - b.first) * c->room, (size_t)(kept * c->room) * sizeof *c->share);
     }
+}
+
+typedef struct pieces {
+    pia_normal *normal;
+    const pia_targets *targets;
+    pia_index from, to, count;
+    int survey; /* 1: wanted */
+} pieces;
+
+static void sum_piece(void *work, pia_index piece)
+{
+    const pieces *p = work;
+    curve *c = p->normal->state;
+    const pia_collocation *line = c->gram.line;
+    pia_span_data data = {NULL, line, p->normal->op->weights, p->targets}; /* this thread alone */
+    pia_index from = p->from + pia_chunk_begin(p->to - p->from, p->count, piece);
+    pia_index to = p->from + pia_chunk_begin(p->to - p->from, p->count, piece + 1);
+    pia_index first = from > line->degree ? from - line->degree : 0, end = to < spans(line) ? to : spans(line);
+    double *share = pia_rooms_take(&c->rooms);
+    batch b = {
+        .normal = p->normal, .share = share, .reference = p->targets->points, .first = first, .end = end, .dim = p->targets->dim};
+    pia_span_sums(&data, first, end - 1, share, p->survey ? &c->seen[piece] : NULL);
+    make_rows(&b, from, to);
+    pia_rooms_leave(&c->rooms, share);
+}
+
+static void sum_pieces(pia_normal *normal, const pia_targets *targets, pia_index from, pia_index to, pia_survey *survey)
+{
+    curve *c = normal->state;
+    pieces p = {normal, targets, from, to, pia_chunk_count(to - from, PIECE), survey != NULL};
+    pia_for_each(normal->op->context, p.count, sum_piece, &p);
+    if (survey != NULL) *survey = c->seen[0];
+    for (pia_index k = 1; k < p.count && survey != NULL; k++) *survey = pia_survey_join(survey, &c->seen[k], targets->dim);
+}
+
+/* Control rows from .. to - 1 from the data, with right-hand sides relative to the first row of data. survey NULL: unwanted. */
+static void sum_rows(pia_normal *normal, const pia_targets *targets, pia_index from, pia_index to, pia_survey *survey)
+{
+    const curve *c = normal->state;
+    if (c->share == NULL)
+        sum_pieces(normal, targets, from, to, survey);
+    else
+        sum_batches(normal, targets, from, to, survey);
 }
 
 /* All that the data say, anew. */
@@ -123,7 +218,7 @@ static pia_status sum_all(pia_normal *normal, const pia_targets *targets, const 
 {
     const pia_collocation *line = normal->op->line[0];
     pia_survey survey;
-    if (has_copies(line)) clear_rows(normal, 0, line->unknowns, targets->dim);
+    if (has_copies(line)) clear(normal, targets->dim);
     sum_rows(normal, targets, 0, line->full, addition->look != NULL ? &survey : NULL);
     pia_status status = addition->look != NULL ? addition->look(addition->owner, &survey) : PIA_OK;
     if (status == PIA_OK) pia_normal_move(normal, targets, 0, line->unknowns);
@@ -134,7 +229,7 @@ static pia_status sum_all(pia_normal *normal, const pia_targets *targets, const 
 static void add_more(pia_normal *normal, int dim)
 {
     curve *c = normal->state;
-    pia_gram_diagonal(&c->gram, normal->diagonal);
+    if (has_copies(c->gram.line)) pia_gram_diagonal(&c->gram, normal->diagonal);
     if (normal->energy != NULL) {
         double factor = pia_energy_factor(normal->energy, normal->diagonal);
         pia_energy_add_gram(normal->energy, factor, &c->gram);
@@ -219,6 +314,8 @@ static void close(pia_normal *normal)
     curve *c = normal->state;
     pia_context *context = normal->op->context;
     pia_give(context, c->share);
+    pia_give(context, c->seen);
+    pia_rooms_close(context, &c->rooms);
     pia_band_qr_close(context, &c->orthogonal);
     pia_gram_close(&c->gram);
     pia_give(context, c);
@@ -236,6 +333,23 @@ static const pia_normal_class banded = {.name = "banded",
                                         .refresh = refresh,
                                         .close = close};
 
+/* Work space: for pieces, or for a batch. */
+static pia_status take_room(pia_normal *normal)
+{
+    curve *c = normal->state;
+    pia_context *context = normal->op->context;
+    const pia_collocation *line = normal->op->line[0];
+    pia_index count = pia_chunk_count(line->full, PIECE), kept = spans(line) > BATCH ? BATCH + line->degree : spans(line);
+    if (spans(line) > BATCH && line->most <= FEW && !has_copies(line)) {
+        pia_index longest = line->full / count + 1 > 2 * PIECE ? line->full / count + 1 : 2 * PIECE;
+        c->seen = pia_take(context, count, sizeof *c->seen);
+        if (c->seen == NULL) return pia_take_status(context, count, sizeof *c->seen);
+        return pia_rooms_open(context, count, (longest + line->degree) * c->room * (pia_index)sizeof *c->share, &c->rooms);
+    }
+    c->share = pia_take(context, kept, (size_t)c->room * sizeof *c->share);
+    return c->share != NULL ? PIA_OK : pia_take_status(context, kept, (size_t)c->room * sizeof *c->share);
+}
+
 pia_status pia_normal_curve_open(pia_normal *normal, const pia_targets *targets, const pia_addition *addition)
 {
     pia_context *context = normal->op->context;
@@ -246,10 +360,8 @@ pia_status pia_normal_curve_open(pia_normal *normal, const pia_targets *targets,
     normal->class = &banded;
     c->room = pia_span_room(line->degree, targets->dim);
     c->gram.context = context;
-    pia_index kept = spans(line) > BATCH ? BATCH + line->degree : spans(line);
-    c->share = pia_take(context, kept, (size_t)c->room * sizeof *c->share);
-    if (c->share == NULL) return pia_take_status(context, kept, (size_t)c->room * sizeof *c->share);
-    pia_status status = pia_gram_open(context, line, &c->gram);
+    pia_status status = take_room(normal);
+    if (status == PIA_OK) status = pia_gram_open(context, line, &c->gram);
     if (status == PIA_OK) status = sum_all(normal, targets, addition);
     if (status == PIA_OK) add_more(normal, targets->dim);
     return status;
