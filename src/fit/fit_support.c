@@ -14,9 +14,10 @@ static const double BARELY = 1e-3;
 
 /* Relative to the mean diagonal of the data's H; the first one that gives a tame limit is taken. */
 static const double pulls[] = {1e-9, 1e-7, 1e-5, 1e-3, 1e-1};
-enum { PULLS = sizeof pulls / sizeof *pulls };
+enum { PULLS = sizeof pulls / sizeof *pulls, ROUNDS = 32 };
 
-static const double TAME = 3; /* extents from the centre of the data */
+static const double TAME = 3;     /* extents from the centre of the data */
+static const double WORTH = 3e-3; /* of the sum of squares: what a farther limit takes away at least */
 
 /* ---- finding ---- */
 
@@ -146,20 +147,54 @@ static pia_index count_empty(const pia_fit *fit)
     return empty;
 }
 
-/* Whether the limit is unique but for control points without any data, which stay, and near the data. x: work [cols x dim]. */
-static pia_status try_limit(pia_fit *fit, double *x, int *tame)
+/* Whether the limit x is unique but for control points without any data, which stay, and near the data. d: work; [cols x dim] both. */
+static pia_status try_limit(pia_fit *fit, double *x, double *d, int *tame)
 {
     pia_normal *normal = fit->normal;
     const double *start = fit->iterate.points;
     pia_index size = fit->op->cols * fit->dim;
     pia_status status = normal->class->factor(normal);
     if (status != PIA_OK) return status;
-    normal->class->multiply(normal, start, fit->dim, x);
-    for (pia_index i = 0; i < size; i++) x[i] = normal->right[i] - x[i];
-    normal->class->solve(normal, x, fit->dim);
+    normal->class->multiply(normal, start, fit->dim, d);
+    for (pia_index i = 0; i < size; i++) d[i] = normal->right[i] - d[i];
+    normal->class->solve(normal, d, fit->dim);
     *tame = normal->weak <= count_empty(fit);
-    for (pia_index i = 0; i < size; i++) *tame &= fabs(start[i] + x[i]) <= TAME * fit->extent;
+    for (pia_index i = 0; i < size; i++) {
+        x[i] = start[i] + d[i];
+        *tame &= fabs(x[i]) <= TAME * fit->extent;
+    }
     return PIA_OK;
+}
+
+/* How far the limit x moves where the pull leads to x itself: d := pull H^-1 (x - start). Returns what that takes from the sum of
+ * squares of the data, pull d (x - start + d); 0 when it is not tame. */
+static double next_step(const pia_fit *fit, const double *x, double *d)
+{
+    const double *start = fit->pull_start;
+    pia_index size = fit->op->cols * fit->dim;
+    double gain = 0;
+    int tame = 1;
+    for (pia_index i = 0; i < size; i++) d[i] = fit->pull * (x[i] - start[i]);
+    fit->normal->class->solve(fit->normal, d, fit->dim);
+    for (pia_index i = 0; i < size; i++) {
+        gain += fit->pull * d[i] * (x[i] - start[i] + d[i]);
+        tame &= fabs(x[i] + d[i]) <= TAME * fit->extent;
+    }
+    return tame ? gain : 0;
+}
+
+/* The pull takes from what the data say. Where it leads to the last limit x instead, it takes less, and control points that the data do
+ * not hold go farther: as long as that is worth it. d: work. */
+static pia_status approach(pia_fit *fit, double *x, double *d)
+{
+    pia_index size = fit->op->cols * fit->dim, round = 0;
+    double left = pia_op_residual(fit->op, x, &fit->iterate.targets, NULL).weighted, gain;
+    for (; round < ROUNDS && (gain = next_step(fit, x, d)) > WORTH * left; round++) {
+        memcpy(fit->pull_start, x, (size_t)size * sizeof *x);
+        for (pia_index i = 0; i < size; i++) x[i] += d[i];
+        left -= gain;
+    }
+    return round > 0 ? pia_fit_open_normal(fit) : PIA_OK;
 }
 
 static pia_status hold(pia_fit *fit)
@@ -167,16 +202,17 @@ static pia_status hold(pia_fit *fit)
     pia_index size = fit->op->cols * fit->dim;
     double mean = mean_diagonal(fit);
     int tame = 0;
-    double *x = pia_take(fit->context, size, sizeof *x);
+    double *x = pia_take(fit->context, size, 2 * sizeof *x);
     fit->pull_start = pia_take(fit->context, size, sizeof *fit->pull_start);
-    pia_status status = x != NULL && fit->pull_start != NULL ? PIA_OK : pia_take_status(fit->context, size, sizeof *x);
+    pia_status status = x != NULL && fit->pull_start != NULL ? PIA_OK : pia_take_status(fit->context, size, 2 * sizeof *x);
     if (status == PIA_OK) memcpy(fit->pull_start, fit->iterate.points, (size_t)size * sizeof *x);
-    if (status == PIA_OK) status = try_limit(fit, x, &tame);
+    if (status == PIA_OK) status = try_limit(fit, x, x + size, &tame);
     for (int k = 0; k < PULLS && status == PIA_OK && !tame; k++) {
         fit->pull = pulls[k] * mean;
         status = pia_fit_open_normal(fit);
-        if (status == PIA_OK) status = try_limit(fit, x, &tame);
+        if (status == PIA_OK) status = try_limit(fit, x, x + size, &tame);
     }
+    if (status == PIA_OK && tame && fit->pull > 0) status = approach(fit, x, x + size);
     pia_give(fit->context, x);
     return status;
 }
