@@ -382,9 +382,10 @@ PIA_INLINE void count_rows(const group *g, int lane, pia_index from, pia_index t
     }
 }
 
-static pia_index first_row(const group *g, int lane, pia_index from, double square)
+/* The last one where there is none, as with squares that are no numbers. */
+static pia_index first_row(const group *g, int lane, pia_index from, pia_index to, double square)
 {
-    while (g->square[from][lane] != square) from++;
+    while (from + 1 < to && g->square[from][lane] != square) from++;
     return from;
 }
 
@@ -406,7 +407,7 @@ PIA_INLINE void count_squares(const group *g, int inside, pia_errors *errors)
         count_rows(g, l, to, end, &lane.sum_squares, &worst);
         lane.weighted = lane.sum_squares;
         lane.max = sqrt(worst);
-        if (lane.max > errors->max || errors->max_row < 0) lane.max_row = g->low[l] + first_row(g, l, own, worst);
+        if (lane.max > errors->max || errors->max_row < 0) lane.max_row = g->low[l] + first_row(g, l, own, end, worst);
         *errors = pia_errors_join(*errors, lane);
     }
 }

@@ -289,6 +289,9 @@ static void what_the_step_sees_is_told(void **state)
     c->points[2 * (ROWS - 1)] = INFINITY;
     assert_ok(c->context, pia_windows_step(c->op, NULL, &c->targets, x, &survey, &errors, &done));
     assert_true(!done || !survey.finite);
+    for (pia_index i = 0; i < 2 * ROWS; i++) c->points[i] = NAN; /* no square is the largest */
+    assert_ok(c->context, pia_windows_step(c->op, NULL, &c->targets, x, &survey, &errors, &done));
+    assert_true(!done || (!survey.finite && errors.after.max_row < ROWS));
     free(x);
     close_curve(c);
 }
