@@ -10,7 +10,14 @@
 #include <math.h>
 #include <string.h>
 
-enum { UNIT = PIA_GRID_UNIT, MAX_CHUNKS = 64, PANEL = 128 /* numbers */, MOST = 16384 /* rows of a block */ };
+enum {
+    UNIT = PIA_GRID_UNIT,
+    MAX_CHUNKS = 64,
+    PANEL = 128 /* numbers */,
+    MOST = 16384 /* rows of a block */,
+    LEAST_CLOSED = 16 /* rows of a closed direction, more than twice its degree in any case */,
+    MARGIN = 12 /* rows a degree */
+};
 
 typedef struct work {
     const pia_grid_solver *solver;
@@ -31,9 +38,9 @@ static pia_index units(pia_index count)
 static void close_side(pia_context *context, pia_grid_side *a)
 {
     pia_give(context, a->entry);
-    pia_give(context, a->factor);
     pia_give(context, a->narrow_entry);
-    pia_give(context, a->narrow_factor);
+    if (a->factor != NULL) pia_give(context, a->factor - a->margin * (a->lower + 1 + a->upper));
+    if (a->narrow_factor != NULL) pia_give(context, a->narrow_factor - a->margin);
 }
 
 /* Whether what lies more than one place from the diagonal is zero. */
@@ -44,47 +51,90 @@ static unsigned char is_narrow(const double *row, int lower, int upper)
     return narrow;
 }
 
-/* Row i of the equations, and of their factors. */
-static void fill_row(const pia_equations *e, const pia_band_lu *lu, pia_index i, pia_grid_side *a)
+/* Where the first entry of an equation lies from its diagonal; that of a closed direction may wrap around. */
+static pia_index first_place(const pia_equations *e, pia_index i, int closed)
 {
-    pia_index at = i * (a->lower + 1 + a->upper);
-    for (int k = -a->lower; k <= a->upper; k++) {
-        pia_index from = i + k - e->first[i];
-        int inside = k >= -lu->lower && k <= lu->upper;
-        a->entry[at + a->lower + k] = from >= 0 && from < e->width ? e->entry[i * e->width + from] : 0;
-        a->factor[at + a->lower + k] = inside ? lu->entry[i * (lu->lower + 1 + lu->upper) + lu->lower + k] : 0;
-    }
-    a->factor[at + a->lower] = 1 / a->factor[at + a->lower];
-    a->narrow_entry[i] = is_narrow(a->entry + at, a->lower, a->upper);
-    a->narrow_factor[i] = is_narrow(a->factor + at, a->lower, a->upper);
+    pia_index place = e->first[i] - i;
+    if (!closed) return place;
+    return place > e->n / 2 ? place - e->n : place < -e->n / 2 ? place + e->n : place;
 }
 
-static pia_status take_side(pia_context *context, const pia_equations *e, const pia_band_lu *lu, pia_grid_side *out)
+static void fill_entries(const pia_equations *e, pia_grid_side *a)
 {
-    out->n = e->n;
-    out->lower = lu->lower > 1 ? lu->lower : 1;
-    out->upper = lu->upper > 1 ? lu->upper : 1;
-    pia_index count = e->n * (out->lower + 1 + out->upper);
-    out->entry = pia_take(context, count, sizeof *out->entry);
-    out->factor = pia_take(context, count, sizeof *out->factor);
-    out->narrow_entry = pia_take(context, e->n, 1);
-    out->narrow_factor = pia_take(context, e->n, 1);
-    if (out->entry == NULL || out->factor == NULL || out->narrow_entry == NULL || out->narrow_factor == NULL) return PIA_E_MEMORY;
-    for (pia_index i = 0; i < e->n; i++) fill_row(e, lu, i, out);
+    for (pia_index i = 0; i < e->n; i++) {
+        double *row = a->entry + i * (a->lower + 1 + a->upper);
+        for (int k = -a->lower; k <= a->upper; k++) {
+            pia_index from = k - first_place(e, i, a->margin > 0);
+            row[a->lower + k] = from >= 0 && from < e->width ? e->entry[i * e->width + from] : 0;
+        }
+        a->narrow_entry[i] = is_narrow(row, a->lower, a->upper);
+    }
+}
+
+static void fill_factors(const pia_band_lu *lu, pia_grid_side *a)
+{
+    for (pia_index i = -a->margin; i < a->n + a->margin; i++) {
+        double *row = a->factor + i * (a->lower + 1 + a->upper);
+        const double *from = lu->entry + (i + a->margin) * (lu->lower + 1 + lu->upper) + lu->lower;
+        for (int k = -a->lower; k <= a->upper; k++) row[a->lower + k] = k >= -lu->lower && k <= lu->upper ? from[k] : 0;
+        row[a->lower] = 1 / row[a->lower];
+        a->narrow_factor[i] = is_narrow(row, a->lower, a->upper);
+    }
+}
+
+static pia_status take_side(pia_context *context, const pia_equations *e, const pia_band_lu *lu, pia_grid_side *a)
+{
+    a->n = e->n;
+    a->lower = lu->lower > 1 ? lu->lower : 1;
+    a->upper = lu->upper > 1 ? lu->upper : 1;
+    pia_index rows = e->n + 2 * a->margin, width = a->lower + 1 + a->upper;
+    a->entry = pia_take(context, e->n * width, sizeof *a->entry);
+    a->narrow_entry = pia_take(context, e->n, 1);
+    a->factor = pia_take(context, rows * width, sizeof *a->factor);
+    if (a->factor != NULL) a->factor += a->margin * width;
+    a->narrow_factor = pia_take(context, rows, 1);
+    if (a->narrow_factor != NULL) a->narrow_factor += a->margin;
+    if (a->entry == NULL || a->narrow_entry == NULL || a->factor == NULL || a->narrow_factor == NULL) return PIA_E_MEMORY;
+    fill_entries(e, a);
+    fill_factors(lu, a);
+    return PIA_OK;
+}
+
+/* The equations of a closed direction cut open, with margins; what reaches past them is left out. */
+static pia_status cut_open(pia_context *context, const pia_equations *e, pia_index margin, pia_equations *out)
+{
+    *out = (pia_equations){.n = e->n + 2 * margin, .width = e->width};
+    out->first = pia_take(context, out->n, sizeof *out->first);
+    out->entry = pia_take(context, out->n, (size_t)e->width * sizeof *out->entry);
+    if (out->first == NULL || out->entry == NULL) return PIA_E_MEMORY;
+    for (pia_index i = 0; i < out->n; i++) {
+        pia_index row = (i - margin % e->n + e->n) % e->n, wanted = i + first_place(e, row, 1), most = out->n - e->width;
+        out->first[i] = wanted < 0 ? 0 : wanted > most ? most : wanted;
+        for (int k = 0; k < e->width; k++) {
+            pia_index from = out->first[i] + k - wanted;
+            out->entry[i * e->width + k] = from >= 0 && from < e->width ? e->entry[row * e->width + from] : 0;
+        }
+    }
     return PIA_OK;
 }
 
 static pia_status open_side(pia_context *context, const pia_collocation *c, pia_grid_side *out)
 {
-    pia_equations e;
+    pia_equations e, cut = {0};
     pia_band_lu lu;
     pia_status status = pia_equations_open(context, c, NULL, &e);
     if (status != PIA_OK) return status;
-    status = pia_band_lu_factor(context, e.entry, e.first, e.n, e.width, &lu);
+    if (c->map == PIA_MAP_CYCLIC) {
+        out->margin = units(MARGIN * (pia_index)c->degree);
+        status = cut_open(context, &e, out->margin, &cut);
+    }
+    const pia_equations *open = c->map == PIA_MAP_CYCLIC ? &cut : &e;
+    if (status == PIA_OK) status = pia_band_lu_factor(context, open->entry, open->first, open->n, open->width, &lu);
     if (status == PIA_OK) {
         status = take_side(context, &e, &lu, out);
         pia_band_lu_clear(context, &lu);
     }
+    pia_equations_clear(context, &cut);
     pia_equations_clear(context, &e);
     return status;
 }
@@ -190,8 +240,8 @@ static void join_errors(const work *w, pia_step_errors *out)
 pia_index pia_grid_room(const pia_square_grid *g)
 {
     pia_index size = g->width + 2 * g->halo, bands = g->u->lower + 1 + g->u->upper;
-    pia_index lines = (g->v->lower + g->v->n + g->v->upper) * g->dim * pia_grid_lines(g->dim);
-    pia_index panel = (g->u->n + 2 * bands + 4) * size + 3 * (g->width + UNIT);
+    pia_index lines = (g->v->lower + g->v->n + 2 * g->v->margin + g->v->upper) * g->dim * pia_grid_lines(g->dim);
+    pia_index panel = (g->u->n + 2 * g->u->margin + 2 * bands + 4) * size + 3 * (g->width + UNIT);
     return lines > panel ? lines : panel;
 }
 
@@ -232,10 +282,17 @@ int pia_square_grid_suits_counts(const pia_index *count, int dim)
     return dim <= PIA_GRID_MOST_DIM && count[0] <= MOST && count[1] <= MOST;
 }
 
+/* A closed direction is longer than what its rows reach on both sides. */
+static int suits_line(const pia_collocation *c)
+{
+    if (c->map == PIA_MAP_CYCLIC) return c->unknowns >= LEAST_CLOSED && c->unknowns > 2 * (pia_index)c->degree + 2;
+    return c->map == PIA_MAP_IDENTITY;
+}
+
 int pia_square_grid_suits(const pia_op *op, int dim)
 {
-    return op->directions == 2 && op->identity && op->frozen == NULL && op->rows == op->cols &&
-           pia_square_grid_suits_counts(op->count, dim);
+    return op->directions == 2 && op->frozen == NULL && op->rows == op->cols && op->line[0] != NULL && suits_line(op->line[0]) &&
+           suits_line(op->line[1]) && pia_square_grid_suits_counts(op->count, dim);
 }
 
 pia_status pia_square_grid_step_with(const pia_grid_solver *solver, const pia_op *op, const pia_targets *targets, double *next,

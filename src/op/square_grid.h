@@ -6,7 +6,7 @@
 
 /* Whether a grid of count[0] x count[1] points is one of at most 8 components and 16384 points a line. */
 int pia_square_grid_suits_counts(const pia_index *count, int dim);
-/* Whether an operator is such a grid, its unknowns its control points, none frozen. */
+/* Whether an operator is such a grid, open or closed, with a control point for each point, none frozen. */
 int pia_square_grid_suits(const pia_op *op, int dim);
 
 /* next [cols x dim] = A^-1 (targets - origin), and the errors of the targets and of `next` as control points. Two passes: lines of one

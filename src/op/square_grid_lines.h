@@ -1,7 +1,7 @@
-/* Lines along v are solved many at a time, transposed in registers so that vectors run across them: block [v x dim x lines of a block],
- * zeros around it. Included once for each width, after square_grid_vectors.h, with JOIN(a, b) the vector of all quarters, QUARTER(a, k)
- * one of them, EVEN, ODD, LOW, HIGH the steps of a transposition within each, TARGETS before functions that are made for certain
- * processors. */
+/* Lines along v are solved many at a time, transposed in registers so that vectors run across them: block [v and its margins x dim x
+ * lines of a block], zeros around it. Included once for each width, after square_grid_vectors.h, with JOIN(a, b) the vector of all
+ * quarters, QUARTER(a, k) one of them, EVEN, ODD, LOW, HIGH the steps of a transposition within each, TARGETS before functions that are
+ * made for certain processors. */
 enum {
     QUARTERS = LANES / PIA_LANES,
     TILE = PIA_LANES /* points whose numbers are transposed together */
@@ -29,13 +29,14 @@ PIA_INLINE void load_tile(const double *const *line, pia_index at, int dim, lane
     }
 }
 
-/* The last points of the lines, fewer than TILE, and zeros after them. */
-PIA_INLINE void load_last(const double *const *line, pia_index at, int points, int dim, lanes *number)
+/* Fewer points than TILE, or such that do not lie one after the other; and zeros after them. */
+PIA_INLINE void load_some(const pia_square_grid *g, const double *const *line, pia_index point, int points, int dim, lanes *number)
 {
     double copy[LANES][TILE * PIA_GRID_MOST_DIM] = {{0}};
     const double *from[LANES];
     for (int l = 0; l < LANES; l++) {
-        memcpy(copy[l], line[l] + at, (size_t)(points * dim) * sizeof(double));
+        for (int k = 0; k < points; k++)
+            memcpy(copy[l] + k * dim, line[l] + pia_grid_turn(g->v, point + k) * dim, (size_t)dim * sizeof(double));
         from[l] = copy[l];
     }
     load_tile(from, 0, dim, number);
@@ -54,7 +55,7 @@ PIA_INLINE void store_tile(lanes *number, int dim, double *const *line, pia_inde
     }
 }
 
-/* Points point .. point + points - 1 of LANES lines, at `block` of the first point: forward substitution. */
+/* Points point .. point + points - 1 of LANES lines, at `block` of point 0: forward substitution. */
 PIA_INLINE void go_down(const pia_square_grid *g, const lanes *number, pia_index point, int points, int reach, int dim, double *block)
 {
     const pia_grid_side *v = g->v;
@@ -90,14 +91,14 @@ PIA_INLINE void go_up(const pia_square_grid *g, lanes *number, pia_index point, 
 PIA_INLINE void tile_down(const pia_square_grid *g, const double *const *line, pia_index point, int narrow, int dim, double *block)
 {
     lanes number[TILE * PIA_GRID_MOST_DIM];
-    pia_index left = g->v->n - point;
-    if (left < TILE) {
-        load_last(line, point * dim, (int)left, dim, number);
+    pia_index left = g->v->n + g->v->margin - point;
+    if (point >= 0 && point + TILE <= g->v->n)
+        load_tile(line, point * dim, dim, number);
+    else
+        load_some(g, line, point, left < TILE ? (int)left : TILE, dim, number);
+    if (left < TILE)
         go_down(g, number, point, (int)left, g->v->lower, dim, block);
-        return;
-    }
-    load_tile(line, point * dim, dim, number);
-    if (narrow)
+    else if (narrow)
         go_down(g, number, point, TILE, 1, dim, block);
     else
         go_down(g, number, point, TILE, g->v->lower, dim, block);
@@ -107,7 +108,7 @@ PIA_INLINE void tile_down(const pia_square_grid *g, const double *const *line, p
 PIA_INLINE void tile_up(const pia_square_grid *g, double *const *line, pia_index point, int narrow, int dim, double *block)
 {
     lanes number[TILE * PIA_GRID_MOST_DIM];
-    pia_index left = g->v->n - point;
+    pia_index left = g->v->n + g->v->margin - point;
     for (int k = left < TILE ? (int)left * dim : TILE * dim; k < TILE * dim; k++) number[k] = (lanes){0};
     if (left < TILE)
         go_up(g, number, point, (int)left, g->v->upper, dim, block);
@@ -115,7 +116,7 @@ PIA_INLINE void tile_up(const pia_square_grid *g, double *const *line, pia_index
         go_up(g, number, point, TILE, 1, dim, block);
     else
         go_up(g, number, point, TILE, g->v->upper, dim, block);
-    store_tile(number, dim, line, point * dim);
+    if (point >= 0 && point < g->v->n) store_tile(number, dim, line, point * dim);
 }
 
 /* Lines past the last one are the last one again. */
@@ -123,7 +124,8 @@ PIA_INLINE void solve_lines(const pia_square_grid *g, pia_index first, int dim, 
 {
     const pia_grid_side *v = g->v;
     const pia_index count = pia_grid_lines(dim), row = dim * count;
-    double *block = room + v->lower * row, *to[PIA_GRID_MOST_LINES];
+    const pia_index margin = v->margin, last = v->n + margin;
+    double *block = room + (v->lower + margin) * row, *to[PIA_GRID_MOST_LINES];
     const double *from[PIA_GRID_MOST_LINES];
     for (pia_index l = 0; l < count; l++) {
         pia_index line = first + l < g->u->n ? first + l : g->u->n - 1;
@@ -131,15 +133,15 @@ PIA_INLINE void solve_lines(const pia_square_grid *g, pia_index first, int dim, 
         to[l] = g->along + line * g->stride;
     }
     memset(room, 0, (size_t)(v->lower * row) * sizeof *room);
-    memset(block + v->n * row, 0, (size_t)(v->upper * row) * sizeof *block);
-    for (pia_index unit = 0; unit < v->n; unit += UNIT) {
-        pia_index end = unit + UNIT < v->n ? unit + UNIT : v->n;
+    memset(block + last * row, 0, (size_t)(v->upper * row) * sizeof *block);
+    for (pia_index unit = -margin; unit < last; unit += UNIT) {
+        pia_index end = unit + UNIT < last ? unit + UNIT : last;
         int narrow = all_narrow(v->narrow_factor, unit, end);
         for (pia_index q = 0; q < count; q += LANES)
             for (pia_index point = unit; point < end; point += TILE) tile_down(g, from + q, point, narrow, dim, block + q);
     }
-    for (pia_index unit = (v->n - 1) / UNIT * UNIT; unit >= 0; unit -= UNIT) {
-        pia_index end = unit + UNIT < v->n ? unit + UNIT : v->n;
+    for (pia_index unit = (last - 1) / UNIT * UNIT; unit >= -margin; unit -= UNIT) {
+        pia_index end = unit + UNIT < last ? unit + UNIT : last;
         int narrow = all_narrow(v->narrow_factor, unit, end);
         for (pia_index q = 0; q < count; q += LANES)
             for (pia_index point = unit + UNIT - TILE; point >= unit; point -= TILE)

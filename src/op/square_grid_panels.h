@@ -1,7 +1,7 @@
 /* Panels of columns go down through the elimination along u, and up through everything else: substitution, control points, and the
  * errors before and after, while what they need is in the first-level cache. Vectors run across the columns: block
- * [u x (width + 2 halo)], zeros around it. Included once for each width, after square_grid_vectors.h, with TARGETS before functions
- * that are made for certain processors. */
+ * [u and its margins x (width + 2 halo)], zeros around it. Included once for each width, after square_grid_vectors.h, with TARGETS
+ * before functions that are made for certain processors. */
 #include <math.h>
 
 enum { AHEAD = 12 /* rows */ };
@@ -28,7 +28,7 @@ typedef struct strip {
     pia_index size;  /* width + 2 halo */
     pia_index line;  /* numbers of a line */
     int inside;      /* 1: lines have all of its numbers */
-    double *block;   /* [u x size] */
+    double *block;   /* [u and its margins x size], at row 0 */
     double *copy;    /* [(lower + 1 + upper) of u x size] rows of points that are not inside */
     double *product; /* [2 x 2 x size] of points and of control points with A_u, for even and odd rows */
     double *square;  /* [3 x (width + UNIT)] of errors before, after, of corrections, zeros at the ends */
@@ -36,23 +36,29 @@ typedef struct strip {
     lanes moved; /* squared length of the longest correction */
 } strip;
 
-/* The numbers of a panel in a row of an array, zeros where it has none; `copy` has room for them. */
+/* The numbers of a panel in a row of an array, those of the other end where it is closed and zeros elsewhere; `copy` has room for
+ * them. */
 PIA_INLINE const double *row_of(const strip *s, const double *array, pia_index stride, pia_index row, double *copy)
 {
-    const double *from = array + row * stride;
+    const double *from = array + pia_grid_turn(s->g->u, row) * stride;
     if (s->inside) return from + s->begin - s->g->halo;
     pia_index first = s->begin - s->g->halo, end = first + s->size < s->line ? first + s->size : s->line, low = first > 0 ? first : 0;
     memset(copy, 0, (size_t)s->size * sizeof *copy);
     memcpy(copy + low - first, from + low, (size_t)(end - low) * sizeof *copy);
+    if (s->g->v->margin > 0) {
+        pia_index over = first + s->size - end < s->g->halo ? first + s->size - end : s->g->halo;
+        memcpy(copy, from + s->line + first, (size_t)(low - first) * sizeof *copy);
+        memcpy(copy + end - first, from, (size_t)over * sizeof *copy);
+    }
     return copy;
 }
 
 /* Rows are pages apart, which no processor looks ahead of by itself. */
 PIA_INLINE void fetch(const strip *s, const double *array, pia_index stride, pia_index row)
 {
-    if (row < 0 || row >= s->g->u->n) return;
+    const double *from = array + pia_grid_turn(s->g->u, row) * stride;
     pia_index first = s->begin > 0 ? s->begin - s->g->halo : 0, end = s->begin + s->g->width + s->g->halo;
-    for (pia_index c = first; c < end && c < s->line; c += UNIT) __builtin_prefetch(array + row * stride + c, 0, 2);
+    for (pia_index c = first; c < end && c < s->line; c += UNIT) __builtin_prefetch(from + c, 0, 2);
 }
 
 PIA_INLINE void eliminate_row(const strip *s, const double *from, pia_index i, int reach)
@@ -184,7 +190,7 @@ PIA_INLINE void go_down_rows(const strip *s)
 {
     const pia_square_grid *g = s->g;
     const pia_grid_side *u = g->u;
-    for (pia_index i = 0; i < u->n; i++) {
+    for (pia_index i = -u->margin; i < u->n + u->margin; i++) {
         fetch(s, g->along, g->stride, i + AHEAD);
         const double *from = row_of(s, g->along, g->stride, i, s->copy);
         if (u->narrow_factor[i])
@@ -194,13 +200,10 @@ PIA_INLINE void go_down_rows(const strip *s)
     }
 }
 
-/* Rows of points around row i, for multiply_row: row[lower] is row i; rows outside meet entries that are 0. */
+/* Rows of points around row i, for multiply_row: row[lower] is row i; those past an open end meet entries that are 0. */
 PIA_INLINE void point_rows(const strip *s, pia_index i, int lower, int upper, const double **row)
 {
-    for (int r = -lower; r <= upper; r++) {
-        pia_index at = i + r < 0 ? 0 : i + r >= s->g->u->n ? s->g->u->n - 1 : i + r;
-        row[lower + r] = row_of(s, s->g->points, s->line, at, s->copy + (lower + r) * s->size);
-    }
+    for (int r = -lower; r <= upper; r++) row[lower + r] = row_of(s, s->g->points, s->line, i + r, s->copy + (lower + r) * s->size);
 }
 
 PIA_INLINE void multiply(const strip *s, pia_index i, int lower, int upper)
@@ -229,17 +232,34 @@ PIA_INLINE void finish(strip *s, pia_index i, int narrow, int dim)
     store_row(s, &row, g->next + first);
 }
 
+PIA_INLINE void substitute(const strip *s, pia_index i)
+{
+    const pia_grid_side *u = s->g->u;
+    if (u->narrow_factor[i])
+        substitute_row(s, i, 1);
+    else
+        substitute_row(s, i, u->upper);
+}
+
+/* The rows next to the ends of a closed direction become those of the other end, so that errors are those of what is kept. */
+PIA_INLINE void close_rows(const strip *s)
+{
+    const pia_grid_side *u = s->g->u;
+    pia_index n = u->n, size = s->size;
+    for (pia_index i = n + u->margin - 1; i >= -u->margin; i--) substitute(s, i);
+    memcpy(s->block - u->lower * size, s->block + (n - u->lower) * size, (size_t)(u->lower * size) * sizeof *s->block);
+    memcpy(s->block + n * size, s->block, (size_t)(u->upper * size) * sizeof *s->block);
+}
+
 /* A row is multiplied as soon as all rows are known that its equation has, and finished after the next one, when what it reads in two
  * pieces has left the processor's queue of stores. */
 PIA_INLINE void go_up_rows(strip *s, int narrow, int dim)
 {
     const pia_grid_side *u = s->g->u;
+    if (u->margin > 0) close_rows(s);
     for (pia_index i = u->n - 1; i >= -u->lower - 1; i--) {
         fetch(s, s->g->points, s->line, i - AHEAD);
-        if (i >= 0 && u->narrow_factor[i])
-            substitute_row(s, i, 1);
-        else if (i >= 0)
-            substitute_row(s, i, u->upper);
+        if (i >= 0 && u->margin == 0) substitute(s, i);
         pia_index ready = i + u->lower;
         if (ready >= 0 && ready < u->n && u->narrow_entry[ready])
             multiply(s, ready, 1, 1);
@@ -254,11 +274,11 @@ static strip open_strip(const pia_square_grid *g, pia_index panel, double *room)
     strip s = {.g = g, .begin = panel * g->width, .size = g->width + 2 * g->halo, .line = g->v->n * g->dim};
     const pia_grid_side *u = g->u;
     s.inside = s.begin >= g->halo && s.begin + g->width + g->halo <= s.line;
-    s.block = room + u->lower * s.size;
-    double *behind = s.block + (u->n + u->upper) * s.size;
+    s.block = room + (u->lower + u->margin) * s.size;
+    double *behind = s.block + (u->n + u->margin) * s.size;
     memset(room, 0, (size_t)(u->lower * s.size) * sizeof *room);
-    memset(s.block + u->n * s.size, 0, (size_t)(u->upper * s.size) * sizeof *room);
-    s.product = behind;
+    memset(behind, 0, (size_t)(u->upper * s.size) * sizeof *room);
+    s.product = behind + u->upper * s.size;
     s.square = s.product + 4 * s.size;
     s.copy = s.square + 3 * (g->width + UNIT);
     memset(s.square, 0, (size_t)(3 * (g->width + UNIT)) * sizeof *room);

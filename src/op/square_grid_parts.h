@@ -11,12 +11,16 @@ enum {
 };
 
 /* One direction: its matrix and Crout's factors, row i over the columns i - lower .. i + upper, zeros outside. Where a row is narrow,
- * one entry on either side of the diagonal is all, as in most rows of a cubic with knots at its parameters. */
+ * one entry on either side of the diagonal is all, as in most rows of a cubic with knots at its parameters.
+ *
+ * A closed direction is cut open, with `margin` rows of the other end again at both ends: the inverse decays exponentially away from
+ * its diagonal, as in windows.h, so that what is between the margins is known to rounding, and the errors tell where it is not. */
 typedef struct pia_grid_side {
-    pia_index n;
+    pia_index n, margin;                         /* 0: of an open direction; else a multiple of PIA_GRID_UNIT */
     int lower, upper;                            /* at least 1 */
-    double *entry, *factor;                      /* [n x (lower + 1 + upper)], pivots inverted */
-    unsigned char *narrow_entry, *narrow_factor; /* [n] */
+    double *entry;                               /* [n x (lower + 1 + upper)] */
+    double *factor;                              /* rows -margin .. n + margin - 1 of as many, pivots inverted */
+    unsigned char *narrow_entry, *narrow_factor; /* of the same rows */
 } pia_grid_side;
 
 /* A panel shows `width` numbers of every line and `halo` numbers on both sides, as many as the rows of v may ask for: the equations of
@@ -34,6 +38,13 @@ typedef struct pia_square_grid {
     pia_index stride;
     double *next; /* [u x v x dim] control points */
 } pia_square_grid;
+
+/* The row of the data that is met at row i, which may lie in a margin. */
+static inline pia_index pia_grid_turn(const pia_grid_side *a, pia_index i)
+{
+    pia_index at = i % a->n;
+    return at < 0 ? at + a->n : at;
+}
 
 /* Lines of a block: several vectors, whose chains of operations overlap; fewer where a point has several numbers. */
 static inline pia_index pia_grid_lines(int dim)

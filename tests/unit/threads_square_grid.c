@@ -36,7 +36,33 @@ static void place(surface *s, int d, placement kind, uint64_t *seed)
     }
 }
 
-static surface *open_placed(int degree, pia_index u, pia_index v, int dim, placement kind, int threads)
+/* Knots at the parameters of a closed direction, on and on. */
+static void place_closed(surface *s, int d, uint64_t *seed)
+{
+    pia_index n = s->count[d];
+    int degree = s->degree[d];
+    for (pia_index i = 0; i < n; i++) s->t[d][i] = ((double)i + 0.4 * (i > 0) * problem_random(seed)) / (double)n;
+    for (pia_index k = -degree; k <= n + degree; k++) {
+        pia_index turn = k < 0 ? -1 : k / n;
+        s->knots[d][degree + k] = s->t[d][k - turn * n] + (double)turn;
+    }
+}
+
+static void open_direction(surface *s, int d, placement kind, int closed, uint64_t *seed)
+{
+    pia_index n = s->count[d];
+    int degree = s->degree[d];
+    if (closed)
+        place_closed(s, d, seed);
+    else
+        place(s, d, kind, seed);
+    assert_ok(s->context,
+              pia_collocation_open(s->context, degree, closed ? PIA_MAP_CYCLIC : PIA_MAP_IDENTITY, closed ? n - degree / 2 : 0,
+                                   s->knots[d], closed ? n + degree : n, s->t[d], n, PIA_STORE_VALUES, &s->line[d]));
+}
+
+/* closed: bit d for direction d. */
+static surface *open_placed(int degree, pia_index u, pia_index v, int dim, placement kind, int closed, int threads)
 {
     surface *s = malloc(sizeof *s);
     assert_non_null(s);
@@ -49,11 +75,7 @@ static surface *open_placed(int degree, pia_index u, pia_index v, int dim, place
     s->count[0] = u;
     s->count[1] = v;
     uint64_t seed = (uint64_t)(degree + 10 * dim);
-    for (int d = 0; d < 2; d++) {
-        place(s, d, kind, &seed);
-        assert_ok(s->context, pia_collocation_open(s->context, degree, PIA_MAP_IDENTITY, 0, s->knots[d], s->count[d], s->t[d],
-                                                   s->count[d], PIA_STORE_VALUES, &s->line[d]));
-    }
+    for (int d = 0; d < 2; d++) open_direction(s, d, kind, closed >> d & 1, &seed);
     for (pia_index i = 0; i < u * v * dim; i++) s->points[i] = 1000 + problem_random(&seed);
     for (int d = 0; d < dim; d++) s->origin[d] = 0;
     s->targets = (pia_targets){s->points, s->origin, dim};
@@ -63,7 +85,7 @@ static surface *open_placed(int degree, pia_index u, pia_index v, int dim, place
 
 static surface *open_surface(int degree, pia_index u, pia_index v, int dim, int threads)
 {
-    return open_placed(degree, u, v, dim, AVERAGED, threads);
+    return open_placed(degree, u, v, dim, AVERAGED, 0, threads);
 }
 
 static void close_surface(surface *s)
@@ -111,9 +133,9 @@ static void solving_lines_side_by_side_undoes_the_operator(void **state)
             }
 }
 
-static void check_step(int degree, const pia_index *count, int dim, placement kind, const pia_grid_solver *solver)
+static void check_step(int degree, const pia_index *count, int dim, placement kind, int closed, const pia_grid_solver *solver)
 {
-    surface *s = open_placed(degree, count[0], count[1], dim, kind, 2);
+    surface *s = open_placed(degree, count[0], count[1], dim, kind, closed, 2);
     pia_step_errors errors;
     pia_index row;
     double moved = 0, size = 0;
@@ -147,7 +169,8 @@ static void a_step_leads_to_the_interpolating_surface(void **state)
     for (int solver = 0; solver < solver_count(); solver++)
         for (int degree = 1; degree <= 7; degree++)
             for (int k = 0; k < SIZE_COUNT; k++)
-                for (int dim = 1; dim < MOST_DIM; dim += 1 + degree / 4) check_step(degree, SIZES[k], dim, AVERAGED, solvers[solver]);
+                for (int dim = 1; dim < MOST_DIM; dim += 1 + degree / 4)
+                    check_step(degree, SIZES[k], dim, AVERAGED, 0, solvers[solver]);
 }
 
 static void knots_at_the_parameters_are_no_different(void **state)
@@ -156,7 +179,18 @@ static void knots_at_the_parameters_are_no_different(void **state)
     for (int solver = 0; solver < solver_count(); solver++)
         for (int degree = 1; degree <= 7; degree += 2)
             for (int k = 0; k < SIZE_COUNT; k++)
-                for (int dim = 1; dim <= 4; dim++) check_step(degree, SIZES[k], dim, AT_PARAMETERS, solvers[solver]);
+                for (int dim = 1; dim <= 4; dim++) check_step(degree, SIZES[k], dim, AT_PARAMETERS, 0, solvers[solver]);
+}
+
+static void closed_directions_are_no_different(void **state)
+{
+    (void)state;
+    static const pia_index sizes[][2] = {{17, 20}, {33, 19}, {64, 32}, {37, 85}, {21, 150}, {149, 18}};
+    for (int solver = 0; solver < solver_count(); solver++)
+        for (int degree = 1; degree <= 7; degree += 2)
+            for (size_t k = 0; k < sizeof sizes / sizeof *sizes; k++)
+                for (int dim = 1; dim <= 4; dim++)
+                    for (int closed = 1; closed < 4; closed++) check_step(degree, sizes[k], dim, AVERAGED, closed, solvers[solver]);
 }
 
 static void wider_vectors_change_no_bit(void **state)
@@ -165,7 +199,8 @@ static void wider_vectors_change_no_bit(void **state)
     if (solver_count() < 2) return;
     for (int degree = 1; degree <= 7; degree++)
         for (int dim = 1; dim < MOST_DIM; dim++) {
-            surface *s = open_placed(degree, 61, 147, dim, degree % 2 == 1 && dim % 2 == 1 ? AT_PARAMETERS : AVERAGED, 2);
+            int odd = degree % 2 == 1;
+            surface *s = open_placed(degree, 61, 147, dim, odd && dim % 2 == 1 ? AT_PARAMETERS : AVERAGED, odd ? dim % 4 : 0, 2);
             pia_step_errors errors, same;
             assert_ok(s->context, pia_square_grid_step_with(solvers[0], s->op, &s->targets, s->x, NULL, &errors));
             assert_ok(s->context, pia_square_grid_step_with(solvers[1], s->op, &s->targets, s->values, NULL, &same));
@@ -267,6 +302,9 @@ static void only_plain_grids_of_few_components_are_suited(void **state)
     assert_ok(s->context, pia_op_freeze(s->op, 5, 1));
     assert_int_equal(pia_square_grid_suits(s->op, 1), 0);
     close_surface(s);
+    s = open_placed(3, 15, 20, 1, AVERAGED, 1, 1);
+    assert_int_equal(pia_square_grid_suits(s->op, 1), 0);
+    close_surface(s);
 }
 
 int main(void)
@@ -275,6 +313,7 @@ int main(void)
         cmocka_unit_test(solving_lines_side_by_side_undoes_the_operator),
         cmocka_unit_test(a_step_leads_to_the_interpolating_surface),
         cmocka_unit_test(knots_at_the_parameters_are_no_different),
+        cmocka_unit_test(closed_directions_are_no_different),
         cmocka_unit_test(wider_vectors_change_no_bit),
         cmocka_unit_test(errors_are_those_of_all_points),
         cmocka_unit_test(what_the_step_sees_is_told),
