@@ -305,6 +305,46 @@ static void a_grid_is_seen_by_its_interpolation(void **state)
     drop_square(s);
 }
 
+/* The one call cuts closed directions open; a careful fit solves them with a border. */
+static void a_closed_grid_is_no_different(void **state)
+{
+    (void)state;
+    for (int closed = 1; closed < 4; closed++)
+        for (int degree = 1; degree <= 5; degree += 2) {
+            square *s = make_square();
+            pia_report once = {.struct_size = sizeof once}, careful = {.struct_size = sizeof careful};
+            pia_model *model, *other;
+            pia_model_info info = {.struct_size = sizeof info};
+            pia_fit *fit;
+            for (int d = 0; d < 2; d++) {
+                s->options.knots[d] = NULL;
+                s->options.knot_count[d] = 0;
+                s->options.degree[d] = degree;
+                s->options.closed[d] = closed >> d & 1;
+                for (int i = 0; i < LINES; i++) s->parameters[d * LINES + i] = i / (LINES - (s->options.closed[d] ? 0.0 : 1.0));
+            }
+            assert_ok(s->context, pia_fit_data(s->context, &s->data, &s->options, &model, &once));
+            assert_ok(s->context, pia_fit_open(s->context, &s->data, &s->options, &fit));
+            assert_ok(s->context, pia_fit_run(fit, NULL));
+            assert_ok(s->context, pia_fit_report(fit, &careful));
+            assert_ok(s->context, pia_fit_model(fit, &other));
+            assert_near(once.start_error, careful.start_error, 1e-10);
+            assert_true(once.max_error < 1e-10);
+            pia_model_get_info(model, &info);
+            double *x = malloc((size_t)(info.control[0] * info.control[1] * 2) * sizeof *x),
+                   *y = malloc((size_t)(info.control[0] * info.control[1] * 2) * sizeof *y);
+            assert_true(x != NULL && y != NULL);
+            pia_model_control(model, x, NULL);
+            pia_model_control(other, y, NULL);
+            for (pia_index i = 0; i < info.control[0] * info.control[1] * 2; i++) assert_near(x[i], y[i], 1e-8);
+            free(x), free(y);
+            pia_model_destroy(model);
+            pia_model_destroy(other);
+            pia_fit_close(fit);
+            drop_square(s);
+        }
+}
+
 static void check_square_refused(square *s, const char *message)
 {
     pia_model *model = NULL;
@@ -363,6 +403,7 @@ int main(void)
         cmocka_unit_test(holes_and_weights_of_a_grid_are_known_in_time),
         cmocka_unit_test(what_is_wrong_with_a_grid_is_named),
         cmocka_unit_test(a_grid_is_seen_by_its_interpolation),
+        cmocka_unit_test(a_closed_grid_is_no_different),
         cmocka_unit_test(what_is_wrong_with_such_a_grid_is_named),
         cmocka_unit_test(holes_of_such_a_grid_are_left_out),
     };
