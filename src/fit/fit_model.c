@@ -11,7 +11,7 @@ enum { GRAIN = 16384, MOST_KEPT = 1000000 };
 
 typedef struct controls {
     const pia_fit *fit;
-    pia_index chunks;
+    pia_index count, chunks; /* count: control points, or lines of them where an iterate of a surface has no copies of them */
     double *out;
 } controls;
 
@@ -27,9 +27,24 @@ static void move_back_copies(const controls *c, pia_index from, pia_index to)
     const pia_fit *fit = c->fit;
     int dim = fit->dim, graph = fit->function_graph, wide = dim + graph;
     for (pia_index i = from; i < to; i++) {
-        const double *x = fit->iterate.points + pia_op_unknown(fit->op, i) * dim;
+        const double *x = fit->iterate.points + pia_collocation_unknown(fit->op->axis[0], i) * dim;
         if (graph) c->out[i * wide] = pia_knots_greville(fit->knots[0], fit->degree[0], i);
         for (int d = 0; d < dim; d++) c->out[i * wide + graph + d] = x[d] + fit->origin[d];
+    }
+}
+
+/* Lines of a surface. */
+static void move_back_lines(const controls *c, pia_index from, pia_index to)
+{
+    const pia_op *op = c->fit->op;
+    int dim = c->fit->dim;
+    for (pia_index i = from; i < to; i++) {
+        const double *line = c->fit->iterate.points + pia_collocation_unknown(op->axis[0], i) * op->count[1] * dim;
+        double *out = c->out + i * op->full_count[1] * dim;
+        for (pia_index j = 0; j < op->full_count[1]; j++) {
+            const double *x = line + pia_collocation_unknown(op->axis[1], j) * dim;
+            for (int d = 0; d < dim; d++) out[j * dim + d] = x[d] + c->fit->origin[d];
+        }
     }
 }
 
@@ -49,9 +64,10 @@ static int is_at_origin(const pia_fit *fit)
 static void fill_chunk(void *work, pia_index chunk)
 {
     const controls *c = work;
-    pia_index count = c->fit->op->fulls;
-    pia_index from = pia_chunk_begin(count, c->chunks, chunk), to = pia_chunk_begin(count, c->chunks, chunk + 1);
-    if (!is_plain(c->fit))
+    pia_index from = pia_chunk_begin(c->count, c->chunks, chunk), to = pia_chunk_begin(c->count, c->chunks, chunk + 1);
+    if (!is_plain(c->fit) && c->fit->directions == 2)
+        move_back_lines(c, from, to);
+    else if (!is_plain(c->fit))
         move_back_copies(c, from, to);
     else if (c->fit->dim == 3)
         move_back(c, from, to, 3);
@@ -63,7 +79,8 @@ static void fill_chunk(void *work, pia_index chunk)
  * Greville line, which makes x the identity. A plain iterate may be moved in place. */
 static void fill_control(const pia_fit *fit, double *out)
 {
-    controls c = {fit, pia_chunk_count(fit->op->fulls, GRAIN), out};
+    pia_index line = !is_plain(fit) && fit->directions == 2 ? fit->op->full_count[1] : 1, count = fit->op->fulls / line;
+    controls c = {fit, count, pia_chunk_count(count, GRAIN / line + 1), out};
     pia_for_each(fit->context, c.chunks, fill_chunk, &c);
 }
 

@@ -79,9 +79,9 @@ static pia_index clamp_knots(const double *knots, int degree, pia_index control,
     return count;
 }
 
-/* Each direction in turn; a clamped direction comes out as it went in, to the last bit. */
-static pia_status clamp_points(pia_context *context, const double *const *knots, const pia_index *control, const double *points,
-                               pia_model *model)
+/* Each closed direction in turn. */
+static pia_status clamp_points(pia_context *context, const double *const *knots, const pia_index *control, const int *closed,
+                               const double *points, pia_model *model)
 {
     const int *degree = model->degree;
     pia_rebase first = {knots[0], degree[0], control[0], {1, model->dim}, model->knots[0], model->control[0], pia_basis_blossom};
@@ -90,11 +90,15 @@ static pia_status clamp_points(pia_context *context, const double *const *knots,
         return PIA_OK;
     }
     first.lines.inner = control[1] * model->dim;
+    pia_rebase second = {knots[1],        degree[1],         control[1],       {model->control[0], model->dim},
+                         model->knots[1], model->control[1], pia_basis_blossom};
+    if (!closed[0] || !closed[1]) {
+        pia_rebase_points(closed[0] ? &first : &second, points, model->points);
+        return PIA_OK;
+    }
     pia_index between_count = model->control[0] * first.lines.inner;
     double *between = pia_take(context, between_count, sizeof *between);
     if (between == NULL) return pia_take_status(context, between_count, sizeof *between);
-    pia_rebase second = {knots[1],        degree[1],         control[1],       {model->control[0], model->dim},
-                         model->knots[1], model->control[1], pia_basis_blossom};
     pia_rebase_points(&first, points, between);
     pia_rebase_points(&second, between, model->points);
     pia_give(context, between);
@@ -114,7 +118,7 @@ pia_status pia_model_from_cyclic(pia_context *context, int directions, const int
         model->periodic[d] = closed[d] && model->control[d] == control[d];
         status = pia_knots_check(context, degree[d], model->knots[d], model->control[d] + degree[d] + 1, model->control[d]);
     }
-    if (status == PIA_OK) status = clamp_points(context, knots, control, points, model);
+    if (status == PIA_OK) status = clamp_points(context, knots, control, closed, points, model);
     if (status == PIA_OK)
         status = pia_check_finite(context, "control point", model->points, model->control[0] * model->control[1], dim);
     if (status == PIA_OK)

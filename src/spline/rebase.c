@@ -4,6 +4,15 @@
 
 #include "knots.h"
 
+enum { TOGETHER = 64 }; /* new points of a line, so that lines are passed over as they lie in memory */
+
+/* A new control point: `row` over the old ones from `from` on. Where it is one of them, so are `copies` new ones from here on, one
+ * after the other, and `from` is the old one. */
+typedef struct combination {
+    pia_index from, copies;
+    double row[PIA_MAX_DEGREE + 1];
+} combination;
+
 static void combine(const double *row, int count, const double *from, pia_index inner, double *to)
 {
     for (pia_index c = 0; c < inner; c++) to[c] = row[0] * from[c];
@@ -13,16 +22,54 @@ static void combine(const double *row, int count, const double *from, pia_index 
     }
 }
 
+/* Which old point the row stands for, -1 when it is not one of them. */
+static int lone_place(const double *row, int count)
+{
+    int place = -1;
+    for (int k = 0; k < count; k++) {
+        if (row[k] == 0) continue;
+        if (row[k] != 1 || place >= 0) return -1;
+        place = k;
+    }
+    return place;
+}
+
+/* Of the new points from `begin` on. span: of the one before. */
+static void fill_combinations(const pia_rebase *r, pia_index begin, pia_index count, pia_index *span, combination *out)
+{
+    for (pia_index j = 0; j < count; j++) {
+        const double *target = r->target + begin + j;
+        *span = pia_knots_span_near(r->knots, r->degree, r->control, target[0], *span);
+        r->rule(r->knots, r->degree, *span, target + 1, out[j].row);
+        int lone = lone_place(out[j].row, r->degree + 1);
+        out[j].from = *span - r->degree + (lone >= 0 ? lone : 0);
+        out[j].copies = lone >= 0;
+    }
+    for (pia_index j = count - 2; j >= 0; j--)
+        if (out[j].copies > 0 && out[j + 1].from == out[j].from + 1) out[j].copies += out[j + 1].copies;
+}
+
+static void combine_line(const pia_rebase *r, const combination *made, pia_index count, const double *from, double *to)
+{
+    pia_index inner = r->lines.inner;
+    for (pia_index j = 0; j<count; j += made[j].copies> 0 ? made[j].copies : 1) {
+        const double *old = from + made[j].from * inner;
+        if (made[j].copies > 0)
+            memcpy(to + j * inner, old, (size_t)(made[j].copies * inner) * sizeof *to);
+        else
+            combine(made[j].row, r->degree + 1, old, inner, to + j * inner);
+    }
+}
+
 void pia_rebase_points(const pia_rebase *r, const double *from, double *to)
 {
     pia_index inner = r->lines.inner, span = r->degree;
-    double row[PIA_MAX_DEGREE + 1];
-    for (pia_index j = 0; j < r->target_control; j++) {
-        span = pia_knots_span_near(r->knots, r->degree, r->control, r->target[j], span);
-        r->rule(r->knots, r->degree, span, r->target + j + 1, row);
+    combination made[TOGETHER];
+    for (pia_index begin = 0; begin < r->target_control; begin += TOGETHER) {
+        pia_index count = r->target_control - begin < TOGETHER ? r->target_control - begin : TOGETHER;
+        fill_combinations(r, begin, count, &span, made);
         for (pia_index line = 0; line < r->lines.outer; line++)
-            combine(row, r->degree + 1, from + (line * r->control + span - r->degree) * inner, inner,
-                    to + (line * r->target_control + j) * inner);
+            combine_line(r, made, count, from + line * r->control * inner, to + (line * r->target_control + begin) * inner);
     }
 }
 

@@ -135,7 +135,7 @@ static void solving_lines_side_by_side_undoes_the_operator(void **state)
 
 static void check_step(int degree, const pia_index *count, int dim, placement kind, int closed, const pia_grid_solver *solver)
 {
-    surface *s = open_placed(degree, count[0], count[1], dim, kind, closed, 2);
+    surface *s = open_placed(degree, count[0], count[1], dim, kind, closed, dim == 1 ? 2 : 1);
     pia_step_errors errors;
     pia_index row;
     double moved = 0, size = 0;
