@@ -177,11 +177,12 @@ static pia_status take_tables(pia_context *context, pia_square_grid *g, const pi
 
 static void set_shape(const pia_grid_side *u, const pia_grid_side *v, const pia_targets *targets, double *next, pia_square_grid *out)
 {
-    int dim = targets->dim, whole = PANEL / (UNIT * dim), reach = v->lower > v->upper ? v->lower : v->upper;
+    int dim = targets->dim, reach = v->lower > v->upper ? v->lower : v->upper;
+    pia_index most = PANEL / (UNIT * dim) * UNIT, points = most > 0 ? most : UNIT; /* of a panel */
     *out = (pia_square_grid){.u = u, .v = v, .dim = dim, .points = targets->points, .next = next};
     out->halo = units(reach * dim);
-    out->width = UNIT * dim * (whole > 1 ? whole : 1);
-    out->panels = (v->n * dim + out->width - 1) / out->width;
+    out->panels = (v->n + points - 1) / points;
+    out->width = units((v->n + out->panels - 1) / out->panels) * dim; /* alike, so that none is wider than it needs to be */
     out->stride = units(v->n) * dim;
 }
 
