@@ -242,7 +242,7 @@ pia_index pia_grid_room(const pia_square_grid *g)
 {
     pia_index size = g->width + 2 * g->halo, bands = g->u->lower + 1 + g->u->upper;
     pia_index lines = (g->v->lower + g->v->n + 2 * g->v->margin + g->v->upper) * g->dim * pia_grid_lines(g->dim);
-    pia_index panel = (g->u->n + 2 * g->u->margin + 2 * bands + 4) * size + 3 * (g->width + UNIT);
+    pia_index panel = (g->u->n + 2 * g->u->margin + 2 * bands + 5) * size + 3 * (g->width + UNIT);
     return lines > panel ? lines : panel;
 }
 

@@ -137,13 +137,13 @@ PIA_INLINE void solve_lines(const pia_square_grid *g, pia_index first, int dim, 
     for (pia_index unit = -margin; unit < last; unit += UNIT) {
         pia_index end = unit + UNIT < last ? unit + UNIT : last;
         int narrow = all_narrow(v->narrow_factor, unit, end);
-        for (pia_index q = 0; q < count; q += LANES)
+        for (pia_index q = 0; q < count && first + q < g->u->n; q += LANES)
             for (pia_index point = unit; point < end; point += TILE) tile_down(g, from + q, point, narrow, dim, block + q);
     }
     for (pia_index unit = (last - 1) / UNIT * UNIT; unit >= -margin; unit -= UNIT) {
         pia_index end = unit + UNIT < last ? unit + UNIT : last;
         int narrow = all_narrow(v->narrow_factor, unit, end);
-        for (pia_index q = 0; q < count; q += LANES)
+        for (pia_index q = 0; q < count && first + q < g->u->n; q += LANES)
             for (pia_index point = unit + UNIT - TILE; point >= unit; point -= TILE)
                 if (point < end) tile_up(g, to + q, point, narrow, dim, block + q);
     }

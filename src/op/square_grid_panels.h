@@ -24,33 +24,58 @@ PIA_INLINE void count(tally *t, lanes length, int part, masks number)
 /* One panel at work. */
 typedef struct strip {
     const pia_square_grid *g;
-    pia_index begin; /* its first number in a line */
-    pia_index size;  /* width + 2 halo */
-    pia_index line;  /* numbers of a line */
-    int inside;      /* 1: lines have all of its numbers */
-    double *block;   /* [u and its margins x size], at row 0 */
-    double *copy;    /* [(lower + 1 + upper) of u x size] rows of points that are not inside */
-    double *product; /* [2 x 2 x size] of points and of control points with A_u, for even and odd rows */
-    double *square;  /* [3 x (width + UNIT)] of errors before, after, of corrections, zeros at the ends */
+    pia_index begin;  /* its first number in a line */
+    pia_index size;   /* width + 2 halo */
+    pia_index line;   /* numbers of a line */
+    int inside;       /* 1: lines have all of its numbers */
+    double *block;    /* [u and its margins x size], at row 0 */
+    double *copy;     /* [(lower + 2 + upper) of u x size] rows that are not inside */
+    pia_index copied; /* rows of points from here on have been there */
+    double *product;  /* [2 x 2 x size] of points and of control points with A_u, for even and odd rows */
+    double *square;   /* [3 x (width + UNIT)] of errors before, after, of corrections, zeros at the ends */
     tally before, after;
     lanes moved; /* squared length of the longest correction */
 } strip;
 
-/* The numbers of a panel in a row of an array, those of the other end where it is closed and zeros elsewhere; `copy` has room for
- * them. */
-PIA_INLINE const double *row_of(const strip *s, const double *array, pia_index stride, pia_index row, double *copy)
+/* The numbers of a panel in a row of an array, those of the other end where it is closed and zeros elsewhere. */
+static void copy_row(const strip *s, const double *row, double *to)
 {
-    const double *from = array + pia_grid_turn(s->g->u, row) * stride;
-    if (s->inside) return from + s->begin - s->g->halo;
     pia_index first = s->begin - s->g->halo, end = first + s->size < s->line ? first + s->size : s->line, low = first > 0 ? first : 0;
-    memset(copy, 0, (size_t)s->size * sizeof *copy);
-    memcpy(copy + low - first, from + low, (size_t)(end - low) * sizeof *copy);
+    memset(to, 0, (size_t)s->size * sizeof *to);
+    memcpy(to + low - first, row + low, (size_t)(end - low) * sizeof *to);
     if (s->g->v->margin > 0) {
         pia_index over = first + s->size - end < s->g->halo ? first + s->size - end : s->g->halo;
-        memcpy(copy, from + s->line + first, (size_t)(low - first) * sizeof *copy);
-        memcpy(copy + end - first, from, (size_t)over * sizeof *copy);
+        memcpy(to, row + s->line + first, (size_t)(low - first) * sizeof *to);
+        memcpy(to + end - first, row, (size_t)over * sizeof *to);
     }
-    return copy;
+}
+
+PIA_INLINE const double *row_along(const strip *s, pia_index i)
+{
+    const double *row = s->g->along + pia_grid_turn(s->g->u, i) * s->g->stride;
+    if (s->inside) return row + s->begin - s->g->halo;
+    copy_row(s, row, s->copy);
+    return s->copy;
+}
+
+PIA_INLINE double *place_of_copy(const strip *s, pia_index i)
+{
+    pia_index slots = s->g->u->lower + s->g->u->upper + 2;
+    return s->copy + (i + slots) % slots * s->size;
+}
+
+/* Rows of points are copied once, from the last to the first; as many as are needed together are kept. */
+PIA_INLINE void copy_points(strip *s, pia_index to)
+{
+    if (s->inside) return;
+    for (; s->copied > to; s->copied--)
+        copy_row(s, s->g->points + pia_grid_turn(s->g->u, s->copied - 1) * s->line, place_of_copy(s, s->copied - 1));
+}
+
+PIA_INLINE const double *row_of_points(const strip *s, pia_index i)
+{
+    if (!s->inside) return place_of_copy(s, i);
+    return s->g->points + pia_grid_turn(s->g->u, i) * s->line + s->begin - s->g->halo;
 }
 
 /* Rows are pages apart, which no processor looks ahead of by itself. */
@@ -192,7 +217,7 @@ PIA_INLINE void go_down_rows(const strip *s)
     const pia_grid_side *u = g->u;
     for (pia_index i = -u->margin; i < u->n + u->margin; i++) {
         fetch(s, g->along, g->stride, i + AHEAD);
-        const double *from = row_of(s, g->along, g->stride, i, s->copy);
+        const double *from = row_along(s, i);
         if (u->narrow_factor[i])
             eliminate_row(s, from, i, 1);
         else
@@ -201,12 +226,13 @@ PIA_INLINE void go_down_rows(const strip *s)
 }
 
 /* Rows of points around row i, for multiply_row: row[lower] is row i; those past an open end meet entries that are 0. */
-PIA_INLINE void point_rows(const strip *s, pia_index i, int lower, int upper, const double **row)
+PIA_INLINE void point_rows(strip *s, pia_index i, int lower, int upper, const double **row)
 {
-    for (int r = -lower; r <= upper; r++) row[lower + r] = row_of(s, s->g->points, s->line, i + r, s->copy + (lower + r) * s->size);
+    copy_points(s, i - lower);
+    for (int r = -lower; r <= upper; r++) row[lower + r] = row_of_points(s, i + r);
 }
 
-PIA_INLINE void multiply(const strip *s, pia_index i, int lower, int upper)
+PIA_INLINE void multiply(strip *s, pia_index i, int lower, int upper)
 {
     const double *row[2 * PIA_MAX_DEGREE + 1];
     point_rows(s, i, lower, upper, row);
@@ -217,7 +243,7 @@ PIA_INLINE void finish(strip *s, pia_index i, int narrow, int dim)
 {
     const pia_square_grid *g = s->g;
     const double *product = s->product + (i & 1) * 2 * s->size + g->halo;
-    const known row = {.points = row_of(s, g->points, s->line, i, s->copy) + g->halo,
+    const known row = {.points = row_of_points(s, i) + g->halo,
                        .shift = g->shift + g->halo,
                        .x = s->block + i * s->size + g->halo,
                        .before = product,
@@ -281,6 +307,7 @@ static strip open_strip(const pia_square_grid *g, pia_index panel, double *room)
     s.product = behind + u->upper * s.size;
     s.square = s.product + 4 * s.size;
     s.copy = s.square + 3 * (g->width + UNIT);
+    s.copied = u->n + u->upper;
     memset(s.square, 0, (size_t)(3 * (g->width + UNIT)) * sizeof *room);
     return s;
 }
