@@ -40,6 +40,7 @@ struct pia_normal {
     double *right;             /* b [cols x dim] */
     double *diagonal;          /* of H [cols] */
     double *column_sum;        /* sum over rows of w N_c [cols] */
+    double *band;              /* of a curve: room for H, in one block with these three; NULL: they are blocks of their own */
     pia_index weak;            /* unknowns that the data do not hold, known after factor: solutions are 0 or small there */
     int delicate;              /* 1, known after factor: H has lost digits that the rows still have, and `correct` is there */
     struct pia_energy *energy; /* added to H, see energy.h; NULL: none */

@@ -359,9 +359,8 @@ pia_status pia_normal_curve_open(pia_normal *normal, const pia_targets *targets,
     normal->state = c;
     normal->class = &banded;
     c->room = pia_span_room(line->degree, targets->dim);
-    c->gram.context = context;
+    c->gram = pia_gram_of(context, line, normal->band);
     pia_status status = take_room(normal);
-    if (status == PIA_OK) status = pia_gram_open(context, line, &c->gram);
     if (status == PIA_OK) status = sum_all(normal, targets, addition);
     if (status == PIA_OK) add_more(normal, targets->dim);
     return status;
