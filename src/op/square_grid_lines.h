@@ -55,29 +55,30 @@ PIA_INLINE void store_tile(lanes *number, int dim, double *const *line, pia_inde
     }
 }
 
-/* Points point .. point + points - 1 of LANES lines, at `block` of point 0: forward substitution. */
+/* Points point .. point + points - 1 of LANES lines, at `block` of point 0: forward substitution. What is looked up is read before the
+ * first number is written, which could be anywhere as far as the compiler knows. */
 PIA_INLINE void go_down(const pia_square_grid *g, const lanes *number, pia_index point, int points, int reach, int dim, double *block)
 {
     const pia_grid_side *v = g->v;
-    const pia_index row = pia_grid_lines(dim);
-    for (int k = 0; k < points; k++) {
-        const double *factor = v->factor + (point + k) * (v->lower + 1 + v->upper) + v->lower;
-        for (int d = 0; d < dim; d++) {
-            double *at = block + ((point + k) * dim + d) * row;
-            lanes y = number[k * dim + d] - g->shift[g->halo + d];
+    const pia_index row = pia_grid_lines(dim), size = v->lower + 1 + v->upper;
+    const double *factor = v->factor + point * size + v->lower;
+    double shift[PIA_GRID_MOST_DIM], *at = block + point * dim * row;
+    for (int d = 0; d < dim; d++) shift[d] = g->shift[g->halo + d];
+    for (int k = 0; k < points; k++, factor += size)
+        for (int d = 0; d < dim; d++, at += row) {
+            lanes y = number[k * dim + d] - shift[d];
             for (int r = reach; r >= 1; r--) y -= factor[-r] * load(at - r * dim * row);
             store(y * factor[0], at);
         }
-    }
 }
 
 /* The same back. */
 PIA_INLINE void go_up(const pia_square_grid *g, lanes *number, pia_index point, int points, int reach, int dim, double *block)
 {
     const pia_grid_side *v = g->v;
-    const pia_index row = pia_grid_lines(dim);
-    for (int k = points - 1; k >= 0; k--) {
-        const double *factor = v->factor + (point + k) * (v->lower + 1 + v->upper) + v->lower;
+    const pia_index row = pia_grid_lines(dim), size = v->lower + 1 + v->upper;
+    const double *factor = v->factor + (point + points - 1) * size + v->lower;
+    for (int k = points - 1; k >= 0; k--, factor -= size)
         for (int d = 0; d < dim; d++) {
             double *at = block + ((point + k) * dim + d) * row;
             lanes x = load(at);
@@ -85,7 +86,6 @@ PIA_INLINE void go_up(const pia_square_grid *g, lanes *number, pia_index point, 
             store(x, at);
             number[k * dim + d] = x;
         }
-    }
 }
 
 PIA_INLINE void tile_down(const pia_square_grid *g, const double *const *line, pia_index point, int narrow, int dim, double *block)

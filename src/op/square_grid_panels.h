@@ -86,14 +86,17 @@ PIA_INLINE void fetch(const strip *s, const double *array, pia_index stride, pia
     for (pia_index c = first; c < end && c < s->line; c += UNIT) __builtin_prefetch(from + c, 0, 2);
 }
 
+/* What rows look up is read before the first number is written, which could be anywhere as far as the compiler knows. */
 PIA_INLINE void eliminate_row(const strip *s, const double *from, pia_index i, int reach)
 {
     const pia_grid_side *u = s->g->u;
-    const double *factor = u->factor + i * (u->lower + 1 + u->upper) + u->lower;
-    double *to = s->block + i * s->size;
-    for (pia_index c = 0; c < s->size; c += LANES) {
+    const pia_index size = s->size;
+    const double *row = u->factor + i * (u->lower + 1 + u->upper) + u->lower;
+    double factor[PIA_MAX_DEGREE + 1], *to = s->block + i * size;
+    for (int r = 0; r <= reach; r++) factor[r] = row[-r];
+    for (pia_index c = 0; c < size; c += LANES) {
         lanes y = load(from + c);
-        for (int r = reach; r >= 1; r--) y -= factor[-r] * load(to - r * s->size + c);
+        for (int r = reach; r >= 1; r--) y -= factor[r] * load(to - r * size + c);
         store(y * factor[0], to + c);
     }
 }
@@ -101,22 +104,26 @@ PIA_INLINE void eliminate_row(const strip *s, const double *from, pia_index i, i
 PIA_INLINE void substitute_row(const strip *s, pia_index i, int reach)
 {
     const pia_grid_side *u = s->g->u;
-    const double *factor = u->factor + i * (u->lower + 1 + u->upper) + u->lower;
-    double *to = s->block + i * s->size;
-    for (pia_index c = 0; c < s->size; c += LANES) {
+    const pia_index size = s->size;
+    const double *row = u->factor + i * (u->lower + 1 + u->upper) + u->lower;
+    double factor[PIA_MAX_DEGREE + 1], *to = s->block + i * size;
+    for (int r = 1; r <= reach; r++) factor[r] = row[r];
+    for (pia_index c = 0; c < size; c += LANES) {
         lanes x = load(to + c);
-        for (int r = reach; r >= 1; r--) x -= factor[r] * load(to + r * s->size + c);
+        for (int r = reach; r >= 1; r--) x -= factor[r] * load(to + r * size + c);
         store(x, to + c);
     }
 }
 
-/* to = row i of A_u times points less their shift, and times control points: as many rows of these as entries from entry[-reach] on. */
+/* to = row i of A_u times points less their shift, and times control points: as many rows of these as entries. */
 PIA_INLINE void multiply_row(const strip *s, pia_index i, const double *const *points, int lower, int upper)
 {
     const pia_grid_side *u = s->g->u;
-    const double *entry = u->entry + i * (u->lower + 1 + u->upper) + u->lower, *x = s->block + i * s->size, *shift = s->g->shift;
+    const double *row = u->entry + i * (u->lower + 1 + u->upper) + u->lower, *x = s->block + i * s->size, *shift = s->g->shift;
     const pia_index size = s->size;
+    double entries[2 * PIA_MAX_DEGREE + 1], *entry = entries + lower;
     double *to_before = s->product + (i & 1) * 2 * size, *to_after = to_before + size;
+    for (int r = -lower; r <= upper; r++) entry[r] = row[r];
     for (pia_index c = 0; c < size; c += LANES) {
         lanes before = {0}, after = {0};
         for (int r = -lower; r <= upper; r++) {
