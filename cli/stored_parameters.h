@@ -8,7 +8,8 @@
  * model carries, or computed again by the parametrization that its report names. Rows that the fit of a curve dropped have that of
  * the row they repeat. NULL when the model knows neither, or when it was fitted to another number of points. Kept by the session. */
 const double *stored_parameters(struct session *session, const pia_model *model, const pia_points_info *points);
-/* The same from a fit, by rows of the points it was opened with; NULL when it dropped rows that repeat no other. Kept by the session. */
+/* The same from a fit, by rows of the points it was opened with; NULL when it dropped rows that repeat no other. Kept by the session.
+ */
 const double *fit_parameters(struct session *session, pia_fit *fit, const pia_points_info *points);
 /* Parameters of a named parametrization on the domain of the model; *out is NULL when points have none of their own, because they
  * repeat. Kept by the session. */

@@ -58,7 +58,17 @@ pia_status pia_fit_reassemble(pia_fit *fit)
     return status == PIA_OK ? pia_fit_restart(fit) : status;
 }
 
-static int set_rule(pia_fit *fit, const char *name, double number)
+typedef enum rule_kind { NO_RULE, NUMBER, COUNT } rule_kind;
+
+static rule_kind kind_of_rule(const char *name)
+{
+    static const char *const numbers[] = {"tolerance", "stop_change", "stop_gradient", "time_limit"};
+    for (size_t i = 0; i < sizeof numbers / sizeof *numbers; i++)
+        if (strcmp(name, numbers[i]) == 0) return NUMBER;
+    return strcmp(name, "max_iterations") == 0 || strcmp(name, "trace_every") == 0 ? COUNT : NO_RULE;
+}
+
+static void set_rule(pia_fit *fit, const char *name, double number)
 {
     pia_rules *rules = &fit->solve.rules;
     if (strcmp(name, "tolerance") == 0)
@@ -71,12 +81,9 @@ static int set_rule(pia_fit *fit, const char *name, double number)
         rules->gradient = number;
     else if (strcmp(name, "time_limit") == 0)
         rules->time_limit = number;
-    else if (strcmp(name, "trace_every") == 0)
-        rules->trace_every = (pia_index)number;
     else
-        return 0;
+        rules->trace_every = (pia_index)number;
     fit->solve.stop = PIA_STOP_NONE;
-    return 1;
 }
 
 pia_status pia_fit_set(pia_fit *fit, const char *name, const char *value)
@@ -84,8 +91,16 @@ pia_status pia_fit_set(pia_fit *fit, const char *name, const char *value)
     if (name == NULL || value == NULL) return pia_fail(fit->context, PIA_E_ARGUMENT, "name or value is NULL");
     if (pia_fit_whole(fit) != PIA_OK) return PIA_E_MEMORY;
     double number;
+    rule_kind kind = kind_of_rule(name);
     const char *end = pia_number_parse(value, value + strlen(value), &number);
-    if (end != NULL && *end == '\0' && number >= 0 && number <= 9e18 && set_rule(fit, name, number)) return PIA_OK;
+    int possible = end != NULL && *end == '\0' && number >= 0 && number <= 9e18 && (kind == NUMBER || number == floor(number));
+    if (kind != NO_RULE && !possible)
+        return pia_fail(fit->context, PIA_E_ARGUMENT, "%s=%s is impossible; give a %s of at least 0", name, value,
+                        kind == COUNT ? "count" : "number");
+    if (kind != NO_RULE) {
+        set_rule(fit, name, number);
+        return PIA_OK;
+    }
     const pia_method *method = fit->solve.method;
     pia_status status = pia_values_set(fit->context, method->name, method->parameters, name, value, &fit->method_values);
     return status == PIA_OK ? pia_fit_restart(fit) : status;

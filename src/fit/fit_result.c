@@ -144,6 +144,7 @@ static void copy_parameters(const pia_fit *fit, double *out)
 
 pia_status pia_fit_parameters(pia_fit *fit, const double **parameters, pia_index *count, const pia_index **row)
 {
+    if (parameters == NULL || count == NULL) return pia_fail(fit->context, PIA_E_ARGUMENT, "parameters or count is NULL");
     *parameters = fit->parameter[0];
     *count = pia_fit_parameter_count(fit);
     if (fit->kind == PIA_GRID) {

@@ -148,6 +148,37 @@ static void counts_without_an_array_are_refused_by_name(void **state)
     pia_context_destroy(context);
 }
 
+/* What pia_fit_set takes by name, and what of it is a count. */
+static void rules_are_set_within_their_range(void **state)
+{
+    (void)state;
+    static const char *const rule[] = {"tolerance", "stop_change", "stop_gradient", "time_limit", "max_iterations", "trace_every"};
+    static const char *const never[] = {"", "x", "-1", "nan", "inf", "1e400", "1 ", "0x1"};
+    double points[] = {0, 0, 1, 1, 2, 0, 3, 1, 4, 0, 5, 2};
+    pia_context *context;
+    pia_fit *fit;
+    pia_data data;
+    pia_index count;
+    assert_ok(NULL, pia_context_create(NULL, &context));
+    pia_data_init(&data);
+    data.points = points;
+    data.count[0] = 6;
+    data.dim = 2;
+    assert_ok(context, pia_fit_open(context, &data, NULL, &fit));
+    for (size_t r = 0; r < sizeof rule / sizeof *rule; r++) {
+        for (size_t n = 0; n < sizeof never / sizeof *never; n++) {
+            assert_status(context, pia_fit_set(fit, rule[r], never[n]), PIA_E_ARGUMENT);
+            assert_non_null(strstr(pia_message(context), rule[r]));
+        }
+        assert_status(context, pia_fit_set(fit, rule[r], "2.5"), r < 4 ? PIA_OK : PIA_E_ARGUMENT);
+        assert_ok(context, pia_fit_set(fit, rule[r], "3"));
+    }
+    assert_status(context, pia_fit_set(fit, "no such rule", "1"), PIA_E_ARGUMENT);
+    assert_status(context, pia_fit_parameters(fit, NULL, &count, NULL), PIA_E_ARGUMENT);
+    pia_fit_close(fit);
+    pia_context_destroy(context);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -156,6 +187,7 @@ int main(void)
         cmocka_unit_test(every_record_says_what_it_does),
         cmocka_unit_test(numbers_below_their_range_are_refused_by_name),
         cmocka_unit_test(counts_without_an_array_are_refused_by_name),
+        cmocka_unit_test(rules_are_set_within_their_range),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
