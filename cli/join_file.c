@@ -51,7 +51,7 @@ static int check_keys(const char *place, json_t *item)
     json_object_foreach(item, key, member)
     {
         int known = !strcmp(key, "join") || !strcmp(key, "end") || !strcmp(key, "to") || !strcmp(key, "continuity");
-        if (!known && strcmp(key, "reversed"))
+        if (!known && strcmp(key, "reversed") != 0)
             return fail(EXIT_DATA, "%s: unknown key \"%s\"; join, end, to, continuity, reversed", place, key);
         if (known ? !json_is_string(member) : !json_is_boolean(member))
             return fail(EXIT_DATA, "%s: \"%s\" must be %s; correct it", place, key, known ? "a text" : "true or false");

@@ -205,7 +205,7 @@ void pia_fit_keep_drop(pia_fit *fit, pia_fit_kept *kept);
 pia_status pia_fit_borrow(pia_context *context, const pia_data *data, const pia_fit_options *options, int careful, pia_fit **out);
 
 /* pia_fit_report without a pass over the data: errors are NAN, and their row -1, where they are not known. */
-void pia_fit_tell(pia_fit *fit, pia_report *report);
+void pia_fit_tell(pia_fit *fit, pia_report *out);
 /* pia_fit_model for a fit that can only be closed afterwards: its arrays become the model's where they can. Errors that nobody has
  * asked for yet are not measured for it. */
 pia_status pia_fit_turn_into_model(pia_fit *fit, pia_model **out);

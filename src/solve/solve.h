@@ -62,8 +62,6 @@ pia_status pia_solve_trace(pia_solve *solve);
 /* Before going on after an edit: forgets the stop reason and what was known of the errors; history of accelerated methods starts anew.
  */
 pia_status pia_solve_restart(pia_solve *solve, const pia_values *method_values, const pia_values *limiter_values);
-/* A row of the trace for the current iterate, whose errors are known; nothing where its iteration has one. */
-pia_status pia_solve_trace(pia_solve *solve);
 void pia_solve_end(pia_solve *solve);
 
 /* Whether the progress callback or the context asks to stop. */
