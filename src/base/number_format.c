@@ -89,7 +89,7 @@ static int lay_out(const char *digit, int count, int order, char *text)
     int used = count, length = 0, fixed = order >= -4 && order < count, before = fixed ? order + 1 : 1;
     while (used > 1 && digit[used - 1] == '0') used--;
     if (before <= 0) {
-        memcpy(text, "0.000", 5);
+        memcpy(text, "0.000", 5); /* NOLINT(bugprone-not-null-terminated-result): the end comes later */
         length = 2 - before;
     }
     for (int k = 0; k < used || k < before; k++) {

@@ -214,7 +214,7 @@ pia_status pia_fit_turn_into_model(pia_fit *fit, pia_model **out);
 pia_status pia_fit_take_constraints(pia_fit *fit);
 /* One more on the list, and those of a join. */
 pia_status pia_fit_add_constraint(pia_fit *fit, const pia_constraint *given);
-pia_status pia_fit_add_join(pia_fit *fit, const pia_join *join);
+pia_status pia_fit_add_join(pia_fit *fit, const pia_join *given);
 pia_status pia_fit_bind(pia_fit *fit);
 void pia_fit_unbind(pia_fit *fit);
 void pia_fit_constraints_close(pia_fit *fit);

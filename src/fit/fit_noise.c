@@ -76,28 +76,28 @@ static double deviation_of(const pia_data *data, int direction, measure by, doub
     return count > 0 ? pia_select(size, count, count / 2) / median_length(seen) : NAN;
 }
 
-pia_status pia_suggest_tolerance(pia_context *context, const pia_data *given, double *tolerance, double *noise)
+pia_status pia_suggest_tolerance(pia_context *context, const pia_data *data, double *tolerance, double *noise)
 {
-    pia_data data;
-    pia_data_init(&data);
-    if (given == NULL || tolerance == NULL) return pia_fail(context, PIA_E_ARGUMENT, "data or tolerance is NULL");
-    pia_status status = pia_options_read(context, "pia_data", &data, sizeof data, given);
+    pia_data own;
+    pia_data_init(&own);
+    if (data == NULL || tolerance == NULL) return pia_fail(context, PIA_E_ARGUMENT, "data or tolerance is NULL");
+    pia_status status = pia_options_read(context, "pia_data", &own, sizeof own, data);
     if (status != PIA_OK) return status;
     pia_index rows;
-    if (data.points == NULL || data.dim < 1 || data.dim > PIA_MAX_DIM || data.count[0] < 0 || data.count[1] < 0 ||
-        !pia_multiply(data.count[0], data.count[1], &rows))
+    if (own.points == NULL || own.dim < 1 || own.dim > PIA_MAX_DIM || own.count[0] < 0 || own.count[1] < 0 ||
+        !pia_multiply(own.count[0], own.count[1], &rows))
         return pia_fail(context, PIA_E_SHAPE, "points, counts and dimension do not make up data");
-    if (data.kind == PIA_SCATTERED)
+    if (own.kind == PIA_SCATTERED)
         return pia_fail(context, PIA_E_UNAVAILABLE, "scattered points have no neighbours that would show their noise");
     double *size = pia_take(context, rows, sizeof *size), least = INFINITY;
     if (size == NULL) return pia_take_status(context, rows, sizeof *size);
-    for (int direction = 0; direction <= (data.kind == PIA_GRID); direction++)
+    for (int direction = 0; direction <= (own.kind == PIA_GRID); direction++)
         for (measure by = STEPS; by <= ABSCISSAS; by++)
-            if ((by == ABSCISSAS) == (data.function_graph != 0)) least = fmin(least, deviation_of(&data, direction, by, size));
+            if ((by == ABSCISSAS) == (own.function_graph != 0)) least = fmin(least, deviation_of(&own, direction, by, size));
     pia_give(context, size);
     if (!isfinite(least)) return pia_fail(context, PIA_E_DATA, "no five points in a row that differ: they are too few to show noise");
     /* The largest of `rows` lengths of normal vectors (Laurent, Massart 2000). */
-    double dim = data.dim - (data.function_graph != 0), log_rows = log((double)rows);
+    double dim = own.dim - (own.function_graph != 0), log_rows = log((double)rows);
     *tolerance = least * sqrt(dim + 2 * sqrt(dim * log_rows) + 2 * log_rows);
     if (noise != NULL) *noise = least;
     return PIA_OK;

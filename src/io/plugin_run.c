@@ -87,7 +87,6 @@ static int start(const char *program, const char *word, const char *path, int an
     char words[3][PATH_MAX];
     char *arguments[] = {words[0], words[1], words[2], NULL};
     const char *const text[] = {program, word, path};
-    extern char **environ;
     posix_spawn_file_actions_t actions;
     if (strlen(path) >= PATH_MAX) return ENAMETOOLONG;
     for (int i = 0; i < 3; i++) snprintf(words[i], sizeof words[i], "%s", text[i]);

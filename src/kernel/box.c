@@ -16,7 +16,7 @@ PIA_INLINE void add_groups(const double *points, pia_index groups, int dim, pia_
             pia_lanes value = pia_vector_load(points + k * PIA_LANES);
             low[k] = pia_vector_lower(value, low[k]);
             high[k] = pia_vector_upper(value, high[k]);
-            strange |= value != value;
+            strange |= value != value; /* NOLINT(misc-redundant-expression): NaN */
         }
     for (int k = 0; k < dim; k++) {
         memcpy(box->low + k * PIA_LANES, &low[k], sizeof low[k]);

@@ -49,10 +49,11 @@ static void integrate_span(const pia_collocation *axis, pia_index s, const doubl
     for (int i = 0; i <= p && low < high; i++) {
         pia_basis_derivatives(axis->knots, p, p + s, low + (high - low) * (1 + node[i]) / 2, 2, value);
         scale = weight[i] * (high - low) / (2 * length);
-        for (int order = 0; order < 3; order++, scale *= length * length) {
+        for (int order = 0; order < 3; order++) {
             double *out = share[order] + s * room, *v = value + order * (p + 1);
             for (int k = 0; k <= p; k++)
                 for (int l = k; l <= p; l++) *out++ += scale * v[k] * v[l];
+            scale *= length * length;
         }
     }
 }

@@ -113,9 +113,9 @@ int pia_window_hold(const pia_draft *draft, const pia_window *w, pia_held *held)
     held->count = 0;
     if (draft->data->condition_count == 0) return 1;
     if (!draft->data->periodic) return hold_period(draft, w, 0, held);
-    double base = draft->data->condition[0].parameter;
-    for (double shift = floor(w->begin - base); base + shift <= w->end; shift++)
-        if (!hold_period(draft, w, shift, held)) return 0;
+    double base = draft->data->condition[0].parameter, first = floor(w->begin - base);
+    for (int k = 0; base + first + k <= w->end; k++)
+        if (!hold_period(draft, w, first + k, held)) return 0;
     return 1;
 }
 

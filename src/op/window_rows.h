@@ -38,9 +38,9 @@ typedef struct pia_held {
 int pia_window_hold(const pia_draft *draft, const pia_window *window, pia_held *held);
 /* Moves the control points to the weighted least-squares fit of the rows: of a cyclic window; and of any window such that the
  * conditions are met. The latter returns 0, and moves nothing, when they cannot be. */
-void pia_window_correct_cyclic(pia_window *window, const pia_rows *rows, int degree, int dim);
-int pia_window_correct_held(pia_window *window, const pia_rows *rows, const pia_held *held, int degree, int dim, int cyclic);
+void pia_window_correct_cyclic(pia_window *w, const pia_rows *r, int p, int dim);
+int pia_window_correct_held(pia_window *w, const pia_rows *r, const pia_held *held, int p, int dim, int cyclic);
 /* Whether the control points meet the conditions. */
-int pia_window_holds(const pia_window *window, const pia_held *held, int degree, int dim);
+int pia_window_holds(const pia_window *w, const pia_held *held, int p, int dim);
 
 #endif
