@@ -282,5 +282,5 @@ pia_status pia_fit_freeze(pia_fit *fit, const pia_index *control, pia_index coun
     for (pia_index i = 0; i < count && status == PIA_OK; i++)
         status = pia_op_freeze(fit->op, pia_op_unknown(fit->op, control[i]), frozen);
     if (status != PIA_OK) return status;
-    return pia_fit_changed(fit, fit->directions == 2 && fit->normal != NULL ? pia_fit_reassemble(fit) : pia_fit_restart(fit));
+    return pia_fit_changed(fit, fit->normal != NULL ? pia_fit_reassemble(fit) : pia_fit_restart(fit));
 }

@@ -1,5 +1,5 @@
-/* Frozen control points on surfaces: they keep their bits, and the others go to the minimum that is left, which dense orthogonal
- * reflections of the rows over the free columns find on their own. Grids, with weights and holes, and scattered points. */
+/* Frozen control points of curves and surfaces: they keep their bits, and the others go to the minimum that is left, which dense
+ * orthogonal reflections of the rows over the free columns find on their own. Grids, with weights and holes, and scattered points. */
 #include <stdlib.h>
 
 #include "check.h"
@@ -8,13 +8,13 @@ static const char *const methods[] = {"direct",  "lspia",     "lspia-opt", "mlsp
                                       "salspia", "chebyshev", "cg",        "cg-kron", "clspia",  "clspia-pcg"};
 enum { METHODS = sizeof methods / sizeof *methods, COUNT = 18, MOST_ROWS = 400, MOST = 64, DIM = 2 };
 
-typedef struct surface {
+typedef struct sample {
     double points[MOST_ROWS * DIM], parameters[MOST_ROWS * 2], weights[MOST_ROWS], row[MOST_ROWS * MOST], free_row[MOST_ROWS * MOST];
     double right[MOST_ROWS * DIM];
     pia_index rows, controls;
     pia_data data;
     pia_fit_options options;
-} surface;
+} sample;
 
 static double random_number(uint64_t *seed)
 {
@@ -31,19 +31,20 @@ static double basis(const double *knots, pia_index i, int degree, double t, pia_
     return sum;
 }
 
-static void parameters_of(const surface *s, pia_index row, double *uv)
+static void parameters_of(const sample *s, pia_index row, double *uv)
 {
     int scattered = s->data.kind == PIA_SCATTERED;
-    uv[0] = scattered ? s->parameters[2 * row] : s->parameters[row / COUNT];
-    uv[1] = scattered ? s->parameters[2 * row + 1] : s->parameters[COUNT + row % COUNT];
+    uv[0] = scattered ? s->parameters[2 * row] : s->data.kind == PIA_GRID ? s->parameters[row / COUNT] : s->parameters[row];
+    uv[1] = scattered ? s->parameters[2 * row + 1] : s->data.kind == PIA_GRID ? s->parameters[COUNT + row % COUNT] : 0;
 }
 
-static void make_points(surface *s)
+static void make_points(sample *s)
 {
     uint64_t seed = 77;
-    int scattered = s->data.kind == PIA_SCATTERED;
-    for (pia_index i = 0; i < (scattered ? 2 * s->rows : 2 * COUNT); i++)
-        s->parameters[i] = scattered ? random_number(&seed) : (double)(i % COUNT) / (COUNT - 1);
+    for (pia_index i = 0; i < 2 * MOST_ROWS; i++)
+        s->parameters[i] = s->data.kind == PIA_SCATTERED ? random_number(&seed)
+                           : s->data.kind == PIA_GRID    ? (double)(i % COUNT) / (COUNT - 1)
+                                                         : (double)i / (MOST_ROWS - 1);
     for (pia_index i = 0; i < s->rows; i++) {
         double uv[2];
         parameters_of(s, i, uv);
@@ -54,10 +55,10 @@ static void make_points(surface *s)
 }
 
 /* Rows of the collocation matrix by the recursion of Cox and de Boor, times the roots of the weights. */
-static void make_rows(surface *s, const int *degree, const pia_index *control)
+static void make_rows(sample *s, const int *degree, const pia_index *control)
 {
     static double knots[2][2 * MOST];
-    for (int d = 0; d < 2; d++) {
+    for (int d = 0; d < (s->data.kind == PIA_CURVE ? 1 : 2); d++) {
         for (pia_index k = 0; k <= control[d] + degree[d]; k++)
             knots[d][k] = fmin(fmax((double)(k - degree[d]) / (double)(control[d] - degree[d]), 0), 1);
         s->options.knots[d] = knots[d];
@@ -67,16 +68,17 @@ static void make_rows(surface *s, const int *degree, const pia_index *control)
     for (pia_index row = 0; row < s->rows; row++) {
         double uv[2], root = s->data.weights != NULL ? sqrt(s->weights[row]) : 1;
         parameters_of(s, row, uv);
-        for (pia_index c = 0; c < s->controls; c++)
-            s->row[row * s->controls + c] = root * basis(knots[0], c / control[1], degree[0], uv[0], control[0] - 1) *
-                                            basis(knots[1], c % control[1], degree[1], uv[1], control[1] - 1);
+        for (pia_index c = 0; c < s->controls; c++) {
+            double across = s->data.kind == PIA_CURVE ? 1 : basis(knots[1], c % control[1], degree[1], uv[1], control[1] - 1);
+            s->row[row * s->controls + c] = root * basis(knots[0], c / control[1], degree[0], uv[0], control[0] - 1) * across;
+        }
     }
 }
 
-static void make(surface *s, pia_kind kind, int degree, int weighted)
+static void make(sample *s, pia_kind kind, int degree, int weighted)
 {
     const int degrees[] = {degree, 3};
-    const pia_index control[] = {7, 6};
+    const pia_index control[] = {kind == PIA_CURVE ? 42 : 7, kind == PIA_CURVE ? 1 : 6};
     memset(s, 0, sizeof *s);
     pia_data_init(&s->data);
     pia_fit_options_init(&s->options);
@@ -121,7 +123,7 @@ static void dense_solve(double *a, double *q, pia_index m, pia_index n, double *
 }
 
 /* Of the control points x those that are not frozen := the minimum that the others leave. */
-static void minimise(surface *s, const unsigned char *frozen, double *x)
+static void minimise(sample *s, const unsigned char *frozen, double *x)
 {
     double solution[MOST * DIM];
     pia_index column[MOST], n = 0, m = 0;
@@ -152,7 +154,7 @@ static void control_points(pia_context *context, pia_fit *fit, double *x)
 }
 
 /* Runs the fit; what it was before tells where frozen control points stay. */
-static void check_run(pia_context *context, surface *s, pia_fit *fit, const unsigned char *frozen, const char *method)
+static void check_run(pia_context *context, sample *s, pia_fit *fit, const unsigned char *frozen, const char *method)
 {
     double before[MOST * DIM], after[MOST * DIM], expected[MOST * DIM];
     control_points(context, fit, before);
@@ -179,7 +181,7 @@ static void mark(unsigned char *frozen, int value)
 }
 
 /* Frozen from the start; freed, frozen where the fit has come to, and a point moved meanwhile. */
-static void check_methods(pia_context *context, surface *s)
+static void check_methods(pia_context *context, sample *s)
 {
     unsigned char frozen[MOST] = {0};
     for (int k = 0; k < METHODS; k++) {
@@ -204,9 +206,18 @@ static void check_methods(pia_context *context, surface *s)
     }
 }
 
+static void on_curves(void **state)
+{
+    static sample s;
+    for (int weighted = 0; weighted < 2; weighted++) {
+        make(&s, PIA_CURVE, 2 + weighted, weighted);
+        check_methods(*state, &s);
+    }
+}
+
 static void on_grids(void **state)
 {
-    static surface s;
+    static sample s;
     make(&s, PIA_GRID, 3, 0);
     check_methods(*state, &s);
     make(&s, PIA_GRID, 2, 1);
@@ -216,7 +227,7 @@ static void on_grids(void **state)
 
 static void on_scattered_points(void **state)
 {
-    static surface s;
+    static sample s;
     for (int weighted = 0; weighted < 2; weighted++) {
         make(&s, PIA_SCATTERED, 2 + weighted, weighted);
         check_methods(*state, &s);
@@ -226,7 +237,7 @@ static void on_scattered_points(void **state)
 /* Control points count from the middle of the data, which takes what is beyond the digits of their distance from it. */
 static void an_edge_of_a_start_model_stays_where_the_model_has_it(void **state)
 {
-    static surface s;
+    static sample s;
     double start[MOST * DIM], first[MOST * DIM], last[MOST * DIM];
     const int degree[] = {3, 3};
     const pia_index control[] = {7, 6};
@@ -261,6 +272,7 @@ int main(void)
     pia_context *context = NULL;
     if (pia_context_create(NULL, &context) != PIA_OK) return 1;
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test_prestate(on_curves, context),
         cmocka_unit_test_prestate(on_grids, context),
         cmocka_unit_test_prestate(on_scattered_points, context),
         cmocka_unit_test_prestate(an_edge_of_a_start_model_stays_where_the_model_has_it, context),
