@@ -23,6 +23,7 @@ typedef struct curve {
     double *share;          /* of a batch [degree + BATCH or all spans x room]; NULL: by pieces */
     pia_rooms rooms;        /* for the shares of pieces */
     pia_survey *seen;       /* [pieces of all control rows] */
+    double *alone;          /* band, right and column sums of the data [cols x (degree + 2 + dim)]; NULL where there is no more */
 } curve;
 
 static pia_index spans(const pia_collocation *line)
@@ -122,13 +123,17 @@ static void add_spans(const batch *b)
     for (pia_index s = first > b->first ? first : b->first; s < b->end && s < b->to; s++) add_span(b, s);
 }
 
-static void clear(pia_normal *normal, int dim)
+/* Control rows from .. to - 1, and with them their copies. */
+static void clear(pia_normal *normal, pia_index from, pia_index to, int dim)
 {
     curve *c = normal->state;
-    size_t count = (size_t)c->gram.count;
-    pia_gram_clear(&c->gram);
-    memset(normal->right, 0, count * (size_t)dim * sizeof *normal->right);
-    memset(normal->column_sum, 0, count * sizeof *normal->column_sum);
+    pia_index width = c->gram.width + 1;
+    for (pia_index row = from; row < to; row++) {
+        pia_index i = pia_collocation_unknown(c->gram.line, row);
+        for (pia_index l = 0; l < width; l++) c->gram.band[i * width + l] = 0;
+        for (int d = 0; d < dim; d++) normal->right[i * dim + d] = 0;
+        normal->column_sum[i] = 0;
+    }
 }
 
 static int has_copies(const pia_collocation *line)
@@ -218,17 +223,65 @@ static pia_status sum_all(pia_normal *normal, const pia_targets *targets, const 
 {
     const pia_collocation *line = normal->op->line[0];
     pia_survey survey;
-    if (has_copies(line)) clear(normal, targets->dim);
+    if (has_copies(line)) clear(normal, 0, line->full, targets->dim);
     sum_rows(normal, targets, 0, line->full, addition->look != NULL ? &survey : NULL);
     pia_status status = addition->look != NULL ? addition->look(addition->owner, &survey) : PIA_OK;
     if (status == PIA_OK) pia_normal_move(normal, targets, 0, line->unknowns);
     return status;
 }
 
+/* What an edit touches: control rows from .. to - 1. Where some of them have copies, all that have are taken, the first ones before the
+ * last ones, as their spans come. */
+static void sum_touched(pia_normal *normal, const pia_targets *targets, pia_index from, pia_index to)
+{
+    const pia_collocation *line = normal->op->line[0];
+    const pia_addition nothing = {0};
+    pia_index count = line->unknowns, copies = line->full - count;
+    int first = from<copies, last = to> count, dim = targets->dim;
+    pia_index low = first && to > copies ? to : copies, high = last && from < count ? from : count;
+    if (line->map == PIA_MAP_DOUBLED || line->offset != 0 || ((first || last) && low >= high)) {
+        sum_all(normal, targets, &nothing);
+    } else if (first || last) {
+        clear(normal, 0, low, dim);
+        clear(normal, high, count, dim);
+        sum_rows(normal, targets, 0, low, NULL);
+        sum_rows(normal, targets, high, line->full, NULL);
+        pia_normal_move(normal, targets, 0, low);
+        pia_normal_move(normal, targets, high, count);
+    } else {
+        if (has_copies(line)) clear(normal, from, to, dim);
+        sum_rows(normal, targets, from, to, NULL);
+        pia_normal_move(normal, targets, from, to);
+    }
+}
+
+/* The sums of the data alone, before there is more in them, and back. */
+static void keep(const pia_normal *normal, int dim)
+{
+    const curve *c = normal->state;
+    size_t count = (size_t)c->gram.count, width = (size_t)c->gram.width + 1;
+    if (c->alone == NULL) return;
+    memcpy(c->alone, c->gram.band, count * width * sizeof *c->alone);
+    memcpy(c->alone + count * width, normal->right, count * (size_t)dim * sizeof *c->alone);
+    memcpy(c->alone + count * (width + (size_t)dim), normal->column_sum, count * sizeof *c->alone);
+}
+
+static void restore(pia_normal *normal, int dim)
+{
+    const curve *c = normal->state;
+    size_t count = (size_t)c->gram.count, width = (size_t)c->gram.width + 1;
+    if (c->alone == NULL) return;
+    memcpy(c->gram.band, c->alone, count * width * sizeof *c->alone);
+    memcpy(normal->right, c->alone + count * width, count * (size_t)dim * sizeof *c->alone);
+    memcpy(normal->column_sum, c->alone + count * (width + (size_t)dim), count * sizeof *c->alone);
+    pia_gram_diagonal(&c->gram, normal->diagonal);
+}
+
 /* How strong the energy is depends on the sums of the data, which are complete now. */
 static void add_more(pia_normal *normal, int dim)
 {
     curve *c = normal->state;
+    keep(normal, dim);
     if (has_copies(c->gram.line)) pia_gram_diagonal(&c->gram, normal->diagonal);
     if (normal->energy != NULL) {
         double factor = pia_energy_factor(normal->energy, normal->diagonal);
@@ -294,17 +347,16 @@ static void sweep(const pia_normal *normal, double *x, int dim)
     pia_gram_sweep(&c->gram, normal->op->frozen, normal->diagonal, normal->right, dim, x);
 }
 
-/* Row 0 is what all sums refer to, and energy and pull are in all of them. */
+/* Row 0 is what all sums refer to. */
 static void refresh(pia_normal *normal, const pia_targets *targets, pia_index first_row, pia_index last_row)
 {
     const pia_collocation *line = normal->op->line[0];
-    if (has_copies(line) || normal->energy != NULL || normal->pull > 0 || first_row == 0) {
-        const pia_addition nothing = {0};
+    const pia_addition nothing = {0};
+    if (first_row == 0) {
         sum_all(normal, targets, &nothing);
     } else {
-        pia_index from = pia_collocation_span(line, first_row) - line->degree, to = pia_collocation_span(line, last_row) + 1;
-        sum_rows(normal, targets, from, to, NULL);
-        pia_normal_move(normal, targets, from, to);
+        restore(normal, targets->dim);
+        sum_touched(normal, targets, pia_collocation_span(line, first_row) - line->degree, pia_collocation_span(line, last_row) + 1);
     }
     add_more(normal, targets->dim);
 }
@@ -315,6 +367,7 @@ static void close(pia_normal *normal)
     pia_context *context = normal->op->context;
     pia_give(context, c->share);
     pia_give(context, c->seen);
+    pia_give(context, c->alone);
     pia_rooms_close(context, &c->rooms);
     pia_band_qr_close(context, &c->orthogonal);
     pia_gram_close(&c->gram);
@@ -333,12 +386,17 @@ static const pia_normal_class banded = {.name = "banded",
                                         .refresh = refresh,
                                         .close = close};
 
-/* Work space: for pieces, or for a batch. */
-static pia_status take_room(pia_normal *normal)
+/* Work space: for what the data say alone, where there is more; for pieces, or for a batch. */
+static pia_status take_room(pia_normal *normal, int dim)
 {
     curve *c = normal->state;
     pia_context *context = normal->op->context;
     const pia_collocation *line = normal->op->line[0];
+    if (normal->energy != NULL || normal->pull > 0) {
+        size_t each = (size_t)(line->degree + 2 + dim) * sizeof *c->alone;
+        c->alone = pia_take(context, line->unknowns, each);
+        if (c->alone == NULL) return pia_take_status(context, line->unknowns, each);
+    }
     pia_index count = pia_chunk_count(line->full, PIECE), kept = spans(line) > BATCH ? BATCH + line->degree : spans(line);
     if (spans(line) > BATCH && line->most <= FEW && !has_copies(line)) {
         pia_index longest = line->full / count + 1 > 2 * PIECE ? line->full / count + 1 : 2 * PIECE;
@@ -360,7 +418,7 @@ pia_status pia_normal_curve_open(pia_normal *normal, const pia_targets *targets,
     normal->class = &banded;
     c->room = pia_span_room(line->degree, targets->dim);
     c->gram = pia_gram_of(context, line, normal->band);
-    pia_status status = take_room(normal);
+    pia_status status = take_room(normal, targets->dim);
     if (status == PIA_OK) status = sum_all(normal, targets, addition);
     if (status == PIA_OK) add_more(normal, targets->dim);
     return status;

@@ -233,6 +233,42 @@ static void an_edit_gives_the_bits_of_a_fresh_start(void **state)
     pia_context_destroy(context);
 }
 
+/* Rows first .. first + 3 are moved, and weigh more. */
+static void check_edit(pia_context *context, problem *p, const pia_addition *addition, pia_index first)
+{
+    pia_normal *edited = NULL, *fresh = NULL;
+    assert_ok(context, pia_normal_open_with(p->op, &p->targets, addition, &edited));
+    for (pia_index row = first; row < first + 4; row++) {
+        p->points[2 * row] += 5;
+        p->weights[row] *= 1.5;
+    }
+    pia_normal_refresh(edited, &p->targets, first, first + 3);
+    assert_ok(context, pia_normal_open_with(p->op, &p->targets, addition, &fresh));
+    assert_same_form(edited, fresh, 2);
+    assert_memory_equal(edited->diagonal, fresh->diagonal, (size_t)p->cols * sizeof(double));
+    pia_normal_close(edited);
+    pia_normal_close(fresh);
+}
+
+/* At both sides of the seam, where the copies of a closed curve meet, far from it, and where a few control points are all copies. */
+static void edits_of_closed_faired_and_pulled_curves_give_the_bits_of_a_fresh_start(void **state)
+{
+    (void)state;
+    pia_context *context = context_with(1);
+    const pia_index counts[] = {5, 30}, first[] = {1, 17, 200, 370, 396, 0};
+    for (int cyclic = 0; cyclic < 2; cyclic++)
+        for (int c = 0; c < 2; c++)
+            for (int more = 0; more < 4; more++) {
+                double start[60];
+                problem *p = problem_open(context, PIA_CURVE, 3, 0, counts[c], 1, 400, 2, cyclic, 1);
+                for (int i = 0; i < 60; i++) start[i] = cos(i);
+                pia_addition addition = {.fairing = more % 2 * 0.1, .pull = more / 2 * 0.01, .start = start};
+                for (size_t k = 0; k < sizeof first / sizeof *first; k++) check_edit(context, p, &addition, first[k]);
+                problem_close(p);
+            }
+    pia_context_destroy(context);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -245,6 +281,7 @@ int main(void)
         cmocka_unit_test(what_no_data_holds_stays_and_is_counted),
         cmocka_unit_test(the_thread_count_changes_no_bit),
         cmocka_unit_test(an_edit_gives_the_bits_of_a_fresh_start),
+        cmocka_unit_test(edits_of_closed_faired_and_pulled_curves_give_the_bits_of_a_fresh_start),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
