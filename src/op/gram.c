@@ -120,6 +120,8 @@ PIA_INLINE void multiply_row(const pia_gram *g, pia_index i, const double *x, pi
 {
     if (g->width == 3 && after == 3)
         multiply_row_of(g, i, x, 3, 3, y);
+    else if (g->width == 3 && after == 2)
+        multiply_row_of(g, i, x, 3, 2, y);
     else if (g->width == 3 && after == 1)
         multiply_row_of(g, i, x, 3, 1, y);
     else
@@ -167,7 +169,9 @@ PIA_CLONES static void subtract_chunk(void *work, pia_index chunk)
 {
     const residual *s = work;
     pia_index from = pia_chunk_begin(s->gram->count, s->chunks, chunk), end = pia_chunk_begin(s->gram->count, s->chunks, chunk + 1);
-    s->square[chunk] = s->dim == 3 ? subtract_rows(s, from, end, 3) : subtract_rows(s, from, end, s->dim);
+    s->square[chunk] = s->dim == 3   ? subtract_rows(s, from, end, 3)
+                       : s->dim == 2 ? subtract_rows(s, from, end, 2)
+                                     : subtract_rows(s, from, end, s->dim);
 }
 
 double pia_gram_residual(const pia_gram *gram, const double *x, const double *b, int dim, double *r)
