@@ -370,13 +370,14 @@ pia_status pia_fit_corners(pia_fit *fit, const pia_index **row, pia_index *count
 int pia_fit_trace(const pia_fit *fit, pia_index index, pia_trace_row *out);
 /* Note (repair, warning, choice made by the library) number `index`; NULL past the end. */
 const char *pia_fit_note(const pia_fit *fit, pia_index index);
-/* Moves one data row; parameters stay. Recomputes only what the point touches. */
+/* Moves one data row; parameters stay. Recomputes only what the point touches, of a curve whose first row it is all sums. */
 pia_status pia_fit_move_point(pia_fit *fit, pia_index row, const double *point);
 /* Gives one data row another weight (0 drops it). Least-squares methods only. */
 pia_status pia_fit_weigh_point(pia_fit *fit, pia_index row, double weight);
 /* Appends curve or scattered rows with given parameters inside the domain. Least-squares methods only. */
 pia_status pia_fit_add_points(pia_fit *fit, const pia_data *more);
-/* Freezes (1) or frees (0) control points, row-major index. Every method respects it, direct solves included. */
+/* Freezes (1) or frees (0) control points, row-major index. Every method respects it, direct solves included. Cost:
+ * least squares sums the data again. */
 pia_status pia_fit_freeze(pia_fit *fit, const pia_index *control, pia_index count, int frozen);
 /* Adds interpolation constraints; ids count up from *first_id (NULL allowed). Methods that know constraints only. */
 pia_status pia_fit_constrain(pia_fit *fit, const pia_constraint *constraints, pia_index count, pia_index *first_id);
