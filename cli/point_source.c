@@ -11,7 +11,7 @@ static const struct argp_option options[] = {
     {"columns", KEY_COLUMNS, "x,y,z", 0, "columns to use, by name or by number from 1 (default: all numeric ones)", 0},
     {"grid", KEY_GRID, "RxC", OPTION_ARG_OPTIONAL,
      "the rows are a grid of R times C points, C fastest; without RxC: the file is a matrix of heights", 0},
-    {"part", KEY_PART, "K", 0, "only part K, from 0, of a file whose parts are separated by blank lines", 0},
+    {"part", KEY_PART, "K", 0, "only part K, from 0, of a file with parts, separated by blank lines or by a column 'contour'", 0},
     {"skip-invalid", KEY_SKIP_INVALID, NULL, 0, "drop and count rows that are no points, instead of an error", 0},
     {"input-format", KEY_INPUT_FORMAT, "NAME", 0, "format of the points, whatever the file is called", 0},
     {0}};

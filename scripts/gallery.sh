@@ -53,9 +53,8 @@ show glyph 'A letter, its corners kept' <<'END'
 The letter g of DejaVu Serif, from evenly spaced points of its outline in units of 1/2048 of the type size. Corners are found and kept sharp, both
 contours close without a seam, and the tolerance is one unit.
 
-awk -F, 'NR > 1 { if (part != "" && $1 != part) print ""; part = $1; print $2 "," $3 }' data/glyph/dejavuserif_g_outline.csv >g.csv
-pia fit g.csv --closed --corners auto --tolerance 1 -o glyph.json --quiet
-pia plot glyph.json g.csv --title 'g of DejaVu Serif' --size 960x820 -o glyph.png --quiet
+pia fit data/glyph/dejavuserif_g_outline.csv --closed --corners auto --tolerance 1 -o glyph.json --quiet
+pia plot glyph.json data/glyph/dejavuserif_g_outline.csv --title 'g of DejaVu Serif' --size 960x820 -o glyph.png --quiet
 END
 
 show coast 'A coastline' <<'END'

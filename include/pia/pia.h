@@ -567,7 +567,7 @@ typedef struct pia_points_info {
     const double *points; /* [count[0] x count[1] x dim]; heights come as (x, y, z) */
     pia_index count[2];   /* count[1] is 1 for rows */
     int dim;
-    pia_index part_count;     /* parts separated by blank lines; 1 for other formats */
+    pia_index part_count;     /* parts separated by blank lines or a column "contour"; 1 for other formats */
     const pia_index *part;    /* [part_count + 1] first row of each part, and the total */
     pia_index skipped;        /* rows dropped by skip_invalid */
     const pia_index *row;     /* [count[0]] data row in the file of each row kept; NULL when none was dropped */

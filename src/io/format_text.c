@@ -38,6 +38,7 @@ static pia_status read_points(pia_context *context, const pia_input *input, cons
     pia_status status = pia_text_find_layout(context, input, &layout);
     if (status != PIA_OK) return status;
     status = pia_text_choose_columns(context, input, &layout, options->columns, &columns);
+    if (status == PIA_OK && !options->grid) pia_text_set_contour_apart(&layout, options->columns != NULL, &columns);
     if (status == PIA_OK) status = read_columns(context, input, &layout, &columns, options, out);
     if (status == PIA_OK && layout.header_count > (layout.names.begin != NULL))
         pia_log(context, 1, "%s: skipped %lld lines before the first row of numbers", input->path, (long long)layout.header_count);

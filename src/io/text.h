@@ -63,6 +63,7 @@ typedef struct pia_text_columns {
     pia_index *slot;  /* [layout field_count] */
     pia_index *field; /* [count] field of each output column */
     pia_index count;
+    pia_index contour; /* field that tells rows of different contours apart; -1: none */
 } pia_text_columns;
 
 /* list: names or numbers from 1, separated by commas; NULL: all numeric columns. PIA_E_ARGUMENT names the column that is unknown or
@@ -70,10 +71,15 @@ typedef struct pia_text_columns {
 pia_status pia_text_choose_columns(pia_context *context, const pia_input *input, const pia_text_layout *layout, const char *list,
                                    pia_text_columns *out);
 
+/* A column called "contour" tells rows of different contours apart: it is no component of the points unless it was listed, or is all
+ * that there is. */
+void pia_text_set_contour_apart(const pia_text_layout *layout, int listed, pia_text_columns *columns);
+
 /* The names of the chosen columns into out->names [columns->count]; nothing when the layout has none. out->dim is that count. */
 pia_status pia_text_copy_names(pia_context *context, const pia_text_layout *layout, const pia_text_columns *columns, pia_points *out);
 
-/* Reads all rows into out->points [count[0] x columns->count], out->part and, where rows were skipped, out->row. */
+/* Reads all rows into out->points [count[0] x columns->count], out->part and, where rows were skipped, out->row. A part ends at a blank
+ * line, and where the text of the contour changes. */
 pia_status pia_text_read_rows(pia_context *context, const pia_input *input, const pia_text_layout *layout,
                               const pia_text_columns *columns, const pia_points_options *options, pia_points *out);
 

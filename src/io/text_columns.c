@@ -2,14 +2,21 @@
 
 #include <string.h>
 
-/* The field with that name, or the number from 1 that the text spells; -1 when there is none. */
-static pia_index find_field(const pia_text_layout *layout, const char *text, size_t length)
+/* The field with that name; -1 when there is none. */
+static pia_index find_name(const pia_text_layout *layout, const char *text, size_t length)
 {
     pia_text_field field;
     const char *p = layout->names.begin;
     for (pia_index i = 0; p != NULL && pia_text_next_field(&layout->names, layout->delimiter, &p, &field); i++)
         if ((size_t)(field.end - field.begin) == length && memcmp(field.begin, text, length) == 0) return i;
-    pia_index number = 0;
+    return -1;
+}
+
+/* The field with that name, or the number from 1 that the text spells; -1 when there is none. */
+static pia_index find_field(const pia_text_layout *layout, const char *text, size_t length)
+{
+    pia_index named = find_name(layout, text, length), number = 0;
+    if (named >= 0) return named;
     for (size_t i = 0; i < length && number <= layout->field_count; i++) {
         if (text[i] < '0' || text[i] > '9') return -1;
         number = number * 10 + (text[i] - '0');
@@ -62,7 +69,8 @@ pia_status pia_text_choose_columns(pia_context *context, const pia_input *input,
                                    pia_text_columns *out)
 {
     pia_text_columns columns = {.slot = pia_take(context, layout->field_count, sizeof *columns.slot),
-                                .field = pia_take(context, layout->field_count, sizeof *columns.field)};
+                                .field = pia_take(context, layout->field_count, sizeof *columns.field),
+                                .contour = -1};
     pia_status status = PIA_OK;
     if (columns.slot == NULL || columns.field == NULL) {
         status = pia_take_status(context, layout->field_count, sizeof *columns.slot);
@@ -80,6 +88,22 @@ pia_status pia_text_choose_columns(pia_context *context, const pia_input *input,
         pia_give(context, columns.field);
     }
     return status;
+}
+
+void pia_text_set_contour_apart(const pia_text_layout *layout, int listed, pia_text_columns *columns)
+{
+    static const char name[] = "contour";
+    pia_index contour = find_name(layout, name, sizeof name - 1);
+    pia_index slot = contour >= 0 ? columns->slot[contour] : -1;
+    if (slot >= 0 && (listed || columns->count == 1)) return;
+    columns->contour = contour;
+    if (slot < 0) return;
+    columns->slot[contour] = -1;
+    columns->count--;
+    for (pia_index k = slot; k < columns->count; k++) {
+        columns->field[k] = columns->field[k + 1];
+        columns->slot[columns->field[k]] = k;
+    }
 }
 
 pia_status pia_text_copy_names(pia_context *context, const pia_text_layout *layout, const pia_text_columns *columns, pia_points *out)

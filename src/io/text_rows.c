@@ -17,6 +17,7 @@ typedef struct reading {
     pia_index count, capacity; /* rows */
     pia_index *row, row_capacity;
     pia_index *part, part_count, part_capacity;
+    pia_text_field contour, contour_before; /* of the row just read, and of the one before; begin NULL: none */
     pia_index skipped;
 } reading;
 
@@ -39,15 +40,23 @@ static const char *skip_text(const char *p, const char *end, char delimiter)
     return p;
 }
 
+static pia_text_field without_blanks(const char *begin, const char *end)
+{
+    while (end > begin && pia_text_is_blank(end[-1])) end--;
+    return (pia_text_field){begin, end};
+}
+
 /* Reads a plain row at p, which is not blank; returns the next line, or NULL when the row needs a closer look. */
-static const char *read_plainly(const reading *r, const char *p, double *values)
+static const char *read_plainly(reading *r, const char *p, double *values)
 {
     const char *end = r->input->end;
     const pia_index last = r->layout->field_count - 1, *slot = r->columns->slot;
     const char delimiter = r->layout->delimiter;
     for (pia_index f = 0;; f++) {
         if (slot[f] < 0) {
+            const char *begin = p;
             p = skip_text(p, end, delimiter);
+            if (f == r->columns->contour) r->contour = without_blanks(begin, p);
         } else {
             double *value = &values[slot[f]];
             p = pia_number_parse(p, end, value);
@@ -77,7 +86,7 @@ typedef struct problem {
 } problem;
 
 /* Takes a row apart field by field; returns 0 when it is good. */
-static int find_problem(const reading *r, const pia_text_line *line, double *values, problem *out)
+static int find_problem(reading *r, const pia_text_line *line, double *values, problem *out)
 {
     *out = (problem){0};
     pia_text_field field;
@@ -87,6 +96,7 @@ static int find_problem(const reading *r, const pia_text_line *line, double *val
     p = line->begin;
     for (pia_index f = 0; pia_text_next_field(line, r->layout->delimiter, &p, &field); f++) {
         double value = 0;
+        if (f == r->columns->contour) r->contour = field;
         if (r->columns->slot[f] < 0) continue;
         int number = pia_text_number(&field, &value);
         if (!number || !(isfinite(value) || (isnan(value) && r->options->allow_nan > 0))) {
@@ -160,6 +170,16 @@ static pia_status end_part(reading *r)
     return status;
 }
 
+/* Ends the part before the row just read, which is not counted yet, where its contour is another one. */
+static pia_status compare_contour(reading *r)
+{
+    pia_text_field now = r->contour, before = r->contour_before;
+    size_t size = (size_t)(now.end - now.begin);
+    int same = before.begin != NULL && (size_t)(before.end - before.begin) == size && memcmp(before.begin, now.begin, size) == 0;
+    r->contour_before = now;
+    return same ? PIA_OK : end_part(r);
+}
+
 static pia_status read_row(reading *r, const char *p, const char **next)
 {
     pia_status status = make_room(r, p);
@@ -176,6 +196,7 @@ static pia_status read_row(reading *r, const char *p, const char **next)
         if (bad) return PIA_OK;
     }
     if (r->options->skip_invalid) status = append_index(r, &r->row, &r->row_capacity, r->count, r->count + r->skipped);
+    if (status == PIA_OK && r->columns->contour >= 0) status = compare_contour(r);
     if (status == PIA_OK) r->count++;
     return status;
 }

@@ -77,6 +77,48 @@ static void blank_lines_end_parts(void **state)
     pia_points_destroy(points);
 }
 
+static void assert_parts(pia_context *context, const char *text, const char *columns, int dim, pia_index count, const pia_index *part)
+{
+    pia_points_info info;
+    pia_points_options options;
+    pia_points_options_init(&options);
+    options.columns = columns;
+    make_text("contours.csv", text);
+    pia_points *points = read_points(context, "contours.csv", &options, &info);
+    assert_int_equal(info.dim, dim);
+    assert_int_equal(info.part_count, count);
+    for (pia_index k = 0; k <= count; k++) assert_int_equal(info.part[k], part[k]);
+    pia_points_destroy(points);
+}
+
+static void contours_are_parts_as_between_blank_lines(void **state)
+{
+    static const char numbered[] = "contour,x,y\n0,1,2\n0,3,4\n1,5,6\n1,7,8\n1,9,10\n0,1,1\n";
+    static const char lettered[] = "x y contour\n1 2 outer\n3 4 outer\n5 6 hole\n7 8 hole\n9 9 hole\n1 1 outer\n";
+    static const char quoted[] = "contour;x;y\r\n\"a\";1;2\r\na ;3;4\r\n\r\nb;5;6\r\nb;7;8\r\nb;9;9\r\n\"c\";1;1\r\n";
+    static const pia_index part[] = {0, 2, 5, 6}, whole[] = {0, 6};
+    assert_parts(*state, numbered, NULL, 2, 3, part);
+    assert_parts(*state, numbered, "y", 1, 3, part);
+    assert_parts(*state, lettered, NULL, 2, 3, part);
+    assert_parts(*state, quoted, NULL, 2, 3, part);
+    assert_parts(*state, numbered, "x,contour", 2, 1, whole);
+    assert_parts(*state, "contour\n1\n1\n2\n2\n3\n3\n", NULL, 1, 1, whole);
+    assert_parts(*state, "contours,x\n1,1\n1,2\n2,3\n2,4\n3,5\n3,6\n", NULL, 2, 1, whole);
+}
+
+static void a_matrix_of_heights_has_no_contours(void **state)
+{
+    pia_points_info info;
+    pia_points_options options;
+    pia_points_options_init(&options);
+    options.grid = 1;
+    make_text("heights.csv", "contour,b,c\n0,1,2\n1,3,4\n");
+    pia_points *points = read_points(*state, "heights.csv", &options, &info);
+    assert_int_equal(info.count[0], 2);
+    assert_int_equal(info.count[1], 3);
+    pia_points_destroy(points);
+}
+
 static void columns_are_chosen_by_name_or_number(void **state)
 {
     pia_points_options options;
@@ -368,6 +410,8 @@ int main(void)
         IN_FOLDER(headers_titles_comments_and_marks_are_skipped),
         IN_FOLDER(columns_of_text_are_left_out),
         IN_FOLDER(blank_lines_end_parts),
+        IN_FOLDER(contours_are_parts_as_between_blank_lines),
+        IN_FOLDER(a_matrix_of_heights_has_no_contours),
         IN_FOLDER(columns_are_chosen_by_name_or_number),
         IN_FOLDER(names_may_stand_in_a_comment),
         IN_FOLDER(bad_rows_are_refused_with_their_line),
