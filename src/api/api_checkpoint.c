@@ -290,15 +290,14 @@ static void progress(walk *w, pia_fit *fit)
     pia_solve *s = &fit->solve;
     pia_iterate *it = &fit->iterate;
     pia_index size = fit->op->cols * fit->dim;
-    pia_index v[9] = {it->iteration,       (pia_index)s->stop, s->best_iteration, s->first_iteration, s->blocked,
-                      s->window_iteration, s->standing,        fit->paused,       fit->watch.controls};
-    double r[12] = {s->seconds,       s->start_error,    s->rate,        s->safe_error,         s->last_error,
-                    s->best_error,    it->damping,       it->adjust_max, it->relative_gradient, s->window_error,
-                    fit->watch.worst, fit->watch.squares};
+    pia_index v[7] = {it->iteration, (pia_index)s->stop,  s->best_iteration, s->first_iteration,
+                      s->blocked,    s->window_iteration, s->standing};
+    double r[10] = {s->seconds,    s->start_error, s->rate,        s->safe_error,         s->last_error,
+                    s->best_error, it->damping,    it->adjust_max, it->relative_gradient, s->window_error};
     array(w, "points_now", PIA_SECTION_DOUBLE, it->points, size);
     optional(w, "safe", PIA_SECTION_DOUBLE, &s->safe, size);
-    array(w, "loop_counts", PIA_SECTION_INDEX, v, 9);
-    array(w, "loop", PIA_SECTION_DOUBLE, r, 12);
+    array(w, "loop_counts", PIA_SECTION_INDEX, v, 7);
+    array(w, "loop", PIA_SECTION_DOUBLE, r, 10);
     if (s->method->history != NULL && s->method_state != NULL) s->method->history(it, s->method_state, put_history, w);
     if (s->limiter != NULL && s->limiter->history != NULL) s->limiter->history(it, s->limiter_state, put_limit_history, w);
     if (w->writer != NULL || w->status != PIA_OK) return;
@@ -309,8 +308,6 @@ static void progress(walk *w, pia_fit *fit)
     s->blocked = v[4];
     s->window_iteration = v[5];
     s->standing = (int)v[6];
-    fit->paused = (int)v[7];
-    fit->watch = (pia_watch){r[10], r[11], v[8]};
     s->seconds = r[0];
     s->start_error = r[1];
     s->rate = r[2];
@@ -322,6 +319,20 @@ static void progress(walk *w, pia_fit *fit)
     it->relative_gradient = r[8];
     s->window_error = r[9];
     it->errors_known = 0;
+}
+
+/* Where a refinement is, and what its next search by relaxation begins with. */
+static void stage(walk *w, pia_fit *fit)
+{
+    pia_stage *g = &fit->stage;
+    pia_index v[5] = {g->watch.controls, g->sparing, g->spares, g->feet, (pia_index)g->settled};
+    double r[3] = {g->watch.worst, g->watch.squares, fit->relaxation};
+    array(w, "stage_counts", PIA_SECTION_INDEX, v, 5);
+    array(w, "stage", PIA_SECTION_DOUBLE, r, 3);
+    optional(w, "relaxed", PIA_SECTION_DOUBLE, &fit->relaxed, fit->rows * fit->dim);
+    if (w->writer != NULL || w->status != PIA_OK) return;
+    *g = (pia_stage){{r[0], r[1], v[0]}, v[1], v[2] != 0, v[3] != 0, (pia_stop)v[4]};
+    fit->relaxation = r[2];
 }
 
 static void put_text(walk *w, const char *name, const char *text)
@@ -414,6 +425,7 @@ pia_status pia_fit_save(pia_fit *fit, const char *path)
     support(&w, fit);
     constraints(&w, fit);
     progress(&w, fit);
+    stage(&w, fit);
     trace(&w, fit);
     put_rest(&w, fit);
     pia_checkpoint_end(&writer);
@@ -500,6 +512,7 @@ static pia_status rebuild(walk *w, pia_fit *fit)
     fit->solve.iterate = &fit->iterate;
     w->status = pia_solve_begin(&fit->solve, &fit->method_values, &fit->limiter_values);
     progress(w, fit);
+    stage(w, fit);
     trace(w, fit);
     get_notes(w, fit);
     return w->status;

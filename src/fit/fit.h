@@ -47,6 +47,15 @@ typedef struct pia_watch {
     pia_index controls;    /* then; 0: no round yet */
 } pia_watch;
 
+/* How far a refinement is, across its pauses. */
+typedef struct pia_stage {
+    pia_watch watch;   /* scattered points */
+    pia_index sparing; /* rounds of sparing */
+    int spares;        /* 0: the last of them took nothing away */
+    int feet;          /* 0: the last move to foot points brought nothing */
+    pia_stop settled;  /* how it ended; PIA_STOP_NONE: not yet */
+} pia_stage;
+
 struct pia_fit {
     pia_context *context;
     pia_fit_options options; /* texts and arrays of it are valid during open only */
@@ -110,14 +119,14 @@ struct pia_fit {
     pia_index refined_until;         /* of a refinement: the iteration at which it pauses */
     int paused;                      /* 1: it did, with work left */
     int lost;                        /* 1: memory ran out in the middle of a change */
-    pia_watch watch;                 /* of a refinement of scattered points, across its pauses */
-    double *relaxed;                 /* of a refinement: where the last search by relaxation came to, [rows x dim]; NULL: none yet */
-    double relaxation;               /* rows passed over by all of them, which is limited */
-    int factored;                    /* of a refinement: 1: the equations have factors; 2: and those of data and constraints together */
-    double began;                    /* of a refinement: when it would have begun if it had not been interrupted */
-    double *all_parameters;          /* of a grid, u then v, once asked for; NULL before */
-    double seconds;                  /* spent in opening */
-    double between_error;            /* of a curve between its rows, see pia_report; and the row that the gap begins with */
+    pia_stage stage;
+    double *relaxed;        /* of a refinement: where the last search by relaxation came to, [rows x dim]; NULL: none yet */
+    double relaxation;      /* rows passed over by all of them, which is limited */
+    int factored;           /* of a refinement: 1: the equations have factors; 2: and those of data and constraints together */
+    double began;           /* of a refinement: when it would have begun if it had not been interrupted */
+    double *all_parameters; /* of a grid, u then v, once asked for; NULL before */
+    double seconds;         /* spent in opening */
+    double between_error;   /* of a curve between its rows, see pia_report; and the row that the gap begins with */
     pia_index between_row;
 };
 

@@ -3,6 +3,7 @@
 
 #include "number.h"
 #include "options.h"
+#include "refine.h"
 
 #include <math.h>
 #include <string.h>
@@ -23,6 +24,7 @@ pia_status pia_fit_changed(pia_fit *fit, pia_status status)
 pia_status pia_fit_restart(pia_fit *fit)
 {
     fit->robust.settled = fit->robust.round = 0;
+    pia_refine_reopen(fit);
     return pia_solve_restart(&fit->solve, &fit->method_values, &fit->limiter_values);
 }
 
@@ -71,18 +73,20 @@ static rule_kind kind_of_rule(const char *name)
 static void set_rule(pia_fit *fit, const char *name, double number)
 {
     pia_rules *rules = &fit->solve.rules;
-    if (strcmp(name, "tolerance") == 0)
+    if (strcmp(name, "tolerance") == 0) {
+        if (number != fit->options.tolerance) pia_refine_reopen(fit);
         rules->tolerance = fit->options.tolerance = number;
-    else if (strcmp(name, "max_iterations") == 0)
+    } else if (strcmp(name, "max_iterations") == 0) {
         rules->iterations = fit->options.max_iterations = (pia_index)number;
-    else if (strcmp(name, "stop_change") == 0)
+    } else if (strcmp(name, "stop_change") == 0) {
         rules->change = number;
-    else if (strcmp(name, "stop_gradient") == 0)
+    } else if (strcmp(name, "stop_gradient") == 0) {
         rules->gradient = number;
-    else if (strcmp(name, "time_limit") == 0)
+    } else if (strcmp(name, "time_limit") == 0) {
         rules->time_limit = number;
-    else
+    } else {
         rules->trace_every = (pia_index)number;
+    }
     fit->solve.stop = PIA_STOP_NONE;
 }
 

@@ -16,9 +16,7 @@ pia_status pia_fit_step(pia_fit *fit, pia_index iterations, pia_report *report)
 {
     if (iterations < 0) return pia_fail(fit->context, PIA_E_ARGUMENT, "%lld iterations are not a count", (long long)iterations);
     if (pia_fit_whole(fit) != PIA_OK) return PIA_E_MEMORY;
-    if (fit->refining) pia_solve_go_on(&fit->solve);
-    int refine = fit->refining && fit->solve.stop == PIA_STOP_NONE;
-    pia_status status = refine ? pia_refine(fit, iterations) : step(fit, iterations);
+    pia_status status = fit->refining ? pia_refine(fit, iterations) : step(fit, iterations);
     if (status == PIA_OK && pia_fit_wants_correction(fit)) status = pia_fit_correct(fit);
     if (status == PIA_OK && fit->solve.stop != PIA_STOP_NONE) pia_fit_conclude(fit);
     if (status == PIA_OK && report != NULL) status = pia_fit_report(fit, report);

@@ -50,12 +50,19 @@ static void note_reachable(pia_fit *fit)
                      alike ? fit->iterate.errors.max : pia_refine_worst(fit, 0, fit->rows), alike ? "" : " times it");
 }
 
+void pia_refine_reopen(pia_fit *fit)
+{
+    fit->stage = (pia_stage){.spares = 1, .feet = 1};
+    fit->relaxation = 0;
+}
+
 pia_status pia_refine(pia_fit *fit, pia_index iterations)
 {
     pia_index done = fit->iterate.iteration;
+    fit->solve.stop = fit->stage.settled;
+    if (fit->stage.settled != PIA_STOP_NONE) return PIA_OK;
     fit->refined_until = iterations > INT64_MAX - done ? INT64_MAX : done + iterations;
     if (fit->round > 0) pia_iterate_measure(&fit->iterate);
-    if (!fit->paused) fit->watch = (pia_watch){0};
     fit->paused = 0;
     fit->began = pia_seconds() - fit->solve.seconds;
     int adds_lines = fit->placement != NULL && fit->placement->adds_lines;
@@ -64,7 +71,7 @@ pia_status pia_refine(pia_fit *fit, pia_index iterations)
                                                : pia_refine_surface(fit);
     if (status != PIA_OK) return status;
     if (fit->solve.stop == PIA_STOP_NONE && !fit->paused)
-        fit->solve.stop = pia_refine_reached(fit) ? PIA_STOP_TOLERANCE : PIA_STOP_NO_KNOT_LEFT;
+        fit->solve.stop = fit->stage.settled = pia_refine_reached(fit) ? PIA_STOP_TOLERANCE : PIA_STOP_NO_KNOT_LEFT;
     if (fit->solve.stop == PIA_STOP_NO_KNOT_LEFT) note_reachable(fit);
     if (fit->solve.stop == PIA_STOP_NO_KNOT_LEFT) status = pia_refine_explain(fit);
     if (status == PIA_OK && fit->solve.stop != PIA_STOP_NONE) status = pia_fit_bind(fit);

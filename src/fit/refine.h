@@ -6,7 +6,8 @@
 #include "fit.h"
 
 /* Grows, spares and corrects until the tolerance holds with as few control points as can be found. Ends with fit->solve.stop set:
- * PIA_STOP_TOLERANCE, or why the tolerance could not be had; without one after so many iterations. An iteration is a round of growing,
+ * PIA_STOP_TOLERANCE, or why the tolerance could not be had; without one after so many iterations. Goes on after a stop that is an
+ * interruption; what is settled stays so. An iteration is a round of growing,
  * of correcting, or of sparing. */
 pia_status pia_refine(pia_fit *fit, pia_index iterations);
 /* The same for a curve, and for a surface from a grid or from scattered points. */
@@ -66,13 +67,16 @@ int pia_refine_stopped(pia_fit *fit);
 /* Counts a round that has just been done, and traces it. */
 pia_status pia_refine_count(pia_fit *fit);
 
-/* Whether growth still helps, by fit->watch, which the second brings up to the round just done. Scattered points only; for others
+/* Nothing is settled any more: the tolerance, or what is to keep it, is another one. */
+void pia_refine_reopen(pia_fit *fit);
+
+/* Whether growth still helps, by fit->stage.watch, which the second brings up to the round just done. Scattered points only; for others
  * always 1. */
 int pia_refine_helps(const pia_fit *fit);
 void pia_refine_watch(pia_fit *fit);
-/* Scattered points whose true distance counts: parameters to the foot points, and least squares there. Taken back, with *better 0,
- * where that brings nothing, or loses the tolerance. */
-pia_status pia_refine_move_to_feet(pia_fit *fit, int *better);
+/* Scattered points whose true distance counts: parameters to the foot points, and least squares there. Taken back, with
+ * fit->stage.feet 0, where that brings nothing, or loses the tolerance. */
+pia_status pia_refine_move_to_feet(pia_fit *fit);
 /* A note that says why the tolerance cannot be had by scattered points. */
 pia_status pia_refine_explain(pia_fit *fit);
 

@@ -139,6 +139,7 @@ static void note_weights(pia_fit *fit)
 pia_status pia_refine_begin(pia_fit *fit)
 {
     pia_status status = check_values(fit);
+    pia_refine_reopen(fit);
     note_weights(fit);
     if (status == PIA_OK && fit->corner_count > 0) {
         status = place(fit, 0, &(places){NULL, 0}, (density){1, 0});

@@ -15,22 +15,23 @@ static const double HELPS = 0.1;
 
 int pia_refine_helps(const pia_fit *fit)
 {
-    const pia_watch *watch = &fit->watch;
+    const pia_watch *watch = &fit->stage.watch;
     return fit->kind != PIA_SCATTERED || watch->controls == 0 || fit->op->cols / PATIENCE < watch->controls;
 }
 
 void pia_refine_watch(pia_fit *fit)
 {
-    pia_watch *watch = &fit->watch;
+    pia_watch *watch = &fit->stage.watch;
     double worst = pia_refine_worst(fit, 0, fit->rows), squares = fit->iterate.errors.sum_squares;
     double falls = watch->controls > 0 ? pow((double)fit->op->cols / (double)watch->controls, -HELPS) : INFINITY;
     if (watch->controls == 0 || worst < falls * watch->worst || squares < falls * falls * watch->squares)
         *watch = (pia_watch){worst, squares, fit->op->cols};
 }
 
-pia_status pia_refine_move_to_feet(pia_fit *fit, int *better)
+pia_status pia_refine_move_to_feet(pia_fit *fit)
 {
     pia_fit_kept before;
+    int *better = &fit->stage.feet;
     *better = 0;
     if (fit->kind != PIA_SCATTERED || !fit->options.measure_distance) return PIA_OK;
     int held = pia_refine_reached(fit);

@@ -48,11 +48,15 @@ static int is_weighed(const pia_fit *fit)
 pia_status pia_refine_curve(pia_fit *fit)
 {
     pia_status status = grow_until_kept(fit);
-    pia_index spared = status == PIA_OK && pia_refine_reached(fit);
-    for (int k = 0; status == PIA_OK && k < CORRECTIONS && spared > 0 && !pia_refine_stopped(fit); k++) {
+    pia_stage *stage = &fit->stage;
+    int kept = status == PIA_OK && pia_refine_reached(fit);
+    while (kept && status == PIA_OK && stage->sparing < CORRECTIONS && stage->spares && !pia_refine_stopped(fit)) {
+        pia_index spared;
         status = is_weighed(fit) ? pia_refine_spare_lines(fit, &spared) : pia_refine_spare(fit, &spared);
+        stage->sparing++;
+        stage->spares = spared > 0;
         if (status == PIA_OK) status = pia_refine_count(fit);
-        if ((fit->options.measure_distance == 0 && k >= fit->options.correct) || fit->iterate.project == NULL) break;
+        if ((fit->options.measure_distance == 0 && stage->sparing > fit->options.correct) || fit->iterate.project == NULL) break;
         if (status == PIA_OK) status = move_to_feet(fit);
     }
     return status;

@@ -134,22 +134,26 @@ pia_status pia_refine_surface(pia_fit *fit)
 {
     pia_status status = fit->round == 0 ? pia_refine_solve(fit) : PIA_OK;
     if (status == PIA_OK && fit->round == 0 && fit->solve.rules.trace_every > 0) status = pia_solve_trace(&fit->solve);
-    int more = pia_refine_helps(fit), better = 1;
+    pia_stage *stage = &fit->stage;
+    int more = pia_refine_helps(fit);
     for (int k = 0; k < MAX_GROWTH && status == PIA_OK && more && !pia_refine_reached(fit) && !pia_refine_stopped(fit); k++) {
         status = grow(fit, &more);
-        if (status == PIA_OK && more) status = pia_refine_move_to_feet(fit, &better);
+        if (status == PIA_OK && more) status = pia_refine_move_to_feet(fit);
         if (status == PIA_OK) status = pia_refine_relax(fit);
         if (status == PIA_OK && more) status = pia_refine_count(fit);
         if (status == PIA_OK && more) pia_refine_watch(fit);
         more = more && pia_refine_helps(fit);
     }
-    for (int k = 0; k < MAX_FEET && status == PIA_OK && better && !pia_refine_reached(fit) && !pia_refine_stopped(fit); k++)
-        status = pia_refine_move_to_feet(fit, &better);
+    for (int k = 0; k < MAX_FEET && status == PIA_OK && stage->feet && !pia_refine_reached(fit) && !pia_refine_stopped(fit); k++)
+        status = pia_refine_move_to_feet(fit);
     if (status == PIA_OK && !pia_refine_reached(fit) && !pia_refine_stopped(fit)) status = pia_refine_interpolate(fit);
-    pia_index spared = status == PIA_OK && pia_refine_reached(fit);
-    for (int cycle = 0; cycle < MAX_CYCLES && spared > 0 && status == PIA_OK && !pia_refine_stopped(fit); cycle++) {
+    int kept = status == PIA_OK && pia_refine_reached(fit);
+    while (kept && stage->sparing < MAX_CYCLES && stage->spares && status == PIA_OK && !pia_refine_stopped(fit)) {
+        pia_index spared;
         status = pia_refine_spare_lines(fit, &spared);
-        if (status == PIA_OK) status = pia_refine_move_to_feet(fit, &better);
+        stage->sparing++;
+        stage->spares = spared > 0;
+        if (status == PIA_OK) status = pia_refine_move_to_feet(fit);
         if (status == PIA_OK) status = pia_refine_count(fit);
     }
     return status;

@@ -115,17 +115,34 @@ static void epia_goes_on_inserting_the_same_knots(void **state)
     check_fit(&options);
 }
 
-/* One step, then the fit is saved, closed and resumed. */
-static void step_and_resume(pia_context *context, pia_fit **fit, const char *path, pia_report *report)
+/* How a fit is held up after every iteration: it is stepped by one, or may make only so many. */
+typedef enum hold { BY_STEP, BY_RULE } hold;
+
+/* One iteration, then the fit is saved, closed and resumed. Returns whether it has work left. */
+static int step_and_resume(pia_context *context, pia_fit **fit, const char *path, hold how, pia_report *report)
 {
-    assert_ok(context, pia_fit_step(*fit, 1, report));
+    char next[32];
+    snprintf(next, sizeof next, "%d", (int)report->iterations + 1);
+    if (how == BY_RULE) assert_ok(context, pia_fit_set(*fit, "max_iterations", next));
+    assert_ok(context, pia_fit_step(*fit, how == BY_RULE ? 1000 : 1, report));
     assert_ok(context, pia_fit_save(*fit, path));
     pia_fit_close(*fit);
     assert_ok(context, pia_fit_resume(context, path, fit));
+    return report->stop == (how == BY_RULE ? PIA_STOP_ITERATIONS : PIA_STOP_NONE);
+}
+
+/* What has ended stays as it is, though more iterations are allowed. */
+static void check_end(pia_context *context, pia_fit *fit, const pia_report *end)
+{
+    pia_report more = {.struct_size = sizeof more};
+    assert_ok(context, pia_fit_set(fit, "max_iterations", "1000"));
+    assert_ok(context, pia_fit_step(fit, 1000, &more));
+    assert_int_equal(more.stop, end->stop);
+    assert_int_equal(more.iterations, end->iterations);
 }
 
 /* A fit that is saved, closed and resumed after every iteration ends with the bits of one that is not. */
-static void check_pauses(const pia_data *data, const pia_fit_options *options, pia_report *a)
+static void check_held(const pia_data *data, const pia_fit_options *options, hold how, pia_report *a)
 {
     pia_context *context;
     assert_int_equal(pia_context_create(NULL, &context), PIA_OK);
@@ -137,7 +154,9 @@ static void check_pauses(const pia_data *data, const pia_fit_options *options, p
     assert_ok(context, pia_fit_open(context, data, options, &whole));
     assert_ok(context, pia_fit_step(whole, 1000, a));
     assert_ok(context, pia_fit_open(context, data, options, &paused));
-    while (b.stop == PIA_STOP_NONE) step_and_resume(context, &paused, path, &b);
+    while (step_and_resume(context, &paused, path, how, &b))
+        ;
+    check_end(context, paused, &b);
     assert_int_equal(b.stop, a->stop);
     assert_int_equal(b.iterations, a->iterations);
     assert_int_equal(b.control_count, a->control_count);
@@ -153,13 +172,19 @@ static void check_pauses(const pia_data *data, const pia_fit_options *options, p
     unlink(path);
 }
 
+static void check_pauses(const pia_data *data, const pia_fit_options *options, pia_report *report)
+{
+    check_held(data, options, BY_STEP, report);
+    check_held(data, options, BY_RULE, report);
+}
+
 static void refining_a_curve_goes_on_with_the_same_bits(void **state)
 {
     (void)state;
     pia_index corner[] = {20}, meet[] = {10, 41};
     double points[2 * ROWS];
     for (int closed = 0; closed < 2; closed++)
-        for (int variant = 0; variant < 4; variant++) {
+        for (int variant = 0; variant < 5; variant++) {
             fill(points, closed);
             pia_data data;
             pia_data_init(&data);
@@ -175,6 +200,7 @@ static void refining_a_curve_goes_on_with_the_same_bits(void **state)
             options.corner_count = variant == 2;
             options.interpolate = meet;
             options.interpolate_count = variant == 3 ? 2 : 0;
+            options.correct = variant == 4 ? 2 : 0;
             pia_report report;
             check_pauses(&data, &options, &report);
             assert_int_equal(report.stop, PIA_STOP_TOLERANCE);
@@ -183,8 +209,10 @@ static void refining_a_curve_goes_on_with_the_same_bits(void **state)
 
 enum { SIDE = 40 };
 
-/* Points over the unit square, in lines or not, of a wave or of noise alone. */
-static void fill_sheet(double *points, int in_lines, int noise)
+typedef enum sheet { WAVE, ROUGH_WAVE, NOISE } sheet;
+
+/* Points over the unit square, in lines or not. */
+static void fill_sheet(double *points, int in_lines, sheet what)
 {
     unsigned long long random = 1;
     for (int i = 0; i < SIDE * SIDE; i++) {
@@ -194,7 +222,8 @@ static void fill_sheet(double *points, int in_lines, int noise)
             p[d] = (double)(random >> 33) / 2147483648.0;
         }
         if (in_lines) p[0] = i / SIDE, p[1] = i % SIDE;
-        if (!noise) p[2] = sin(5 * p[0] / (in_lines ? SIDE : 1)) * cos(4 * p[1] / (in_lines ? SIDE : 1));
+        double wave = sin(5 * p[0] / (in_lines ? SIDE : 1)) * cos(4 * p[1] / (in_lines ? SIDE : 1));
+        if (what != NOISE) p[2] = wave + (what == ROUGH_WAVE ? 0.1 * p[2] : 0);
     }
 }
 
@@ -205,8 +234,8 @@ static void refining_a_surface_goes_on_with_the_same_bits(void **state)
     static double points[3 * SIDE * SIDE];
     for (int scattered = 0; scattered < 2; scattered++)
         for (int distance = 0; distance <= scattered; distance++)
-            for (int noise = 0; noise < 2; noise++) {
-                fill_sheet(points, !scattered, noise);
+            for (sheet what = WAVE; what <= NOISE; what += scattered ? 2 : 1) {
+                fill_sheet(points, !scattered, what);
                 pia_data data;
                 pia_data_init(&data);
                 data.points = points;
@@ -218,7 +247,7 @@ static void refining_a_surface_goes_on_with_the_same_bits(void **state)
                 pia_fit_options_init(&options);
                 options.parametrization = scattered ? "xy" : NULL;
                 options.measure_distance = distance;
-                options.tolerance = noise ? 0.05 : 0.001;
+                options.tolerance = what == WAVE ? 0.001 : 0.05;
                 pia_report report;
                 check_pauses(&data, &options, &report);
                 assert_true(report.control_count <= SIDE * SIDE);
