@@ -369,9 +369,6 @@ static error_t check_request(const struct fit_request *request)
     if (request->source.grid && request->kind != KIND_BY_FILE)
         return usage_error("--grid contradicts --curve and --surface; choose one");
     if (request->resume && request->levels.count) return usage_error("--resume and --levels cannot be joined; leave one out");
-    if (request->options.axis_tolerance_count && (request->resume || request->levels.count))
-        return usage_error("--tolerance for each axis and %s cannot be joined; leave one out",
-                           request->resume ? "--resume" : "--levels");
     return 0;
 }
 

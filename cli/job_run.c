@@ -151,6 +151,21 @@ static pia_status set_number(pia_fit *fit, const char *name, double value, doubl
     return pia_fit_set(fit, name, text);
 }
 
+/* As on a command line without --resume, one tolerance is the distance alone, several are the axes alone. */
+static pia_status set_tolerance(struct fit_job *job, pia_fit *fit)
+{
+    const pia_fit_options *options = &job->request->options;
+    if (options->axis_tolerance_count) {
+        const char *axes = NULL;
+        for (pia_index d = 0; d < options->axis_tolerance_count; d++)
+            axes = session_text(job->session, "%s%s%.17g", axes ? axes : "", axes ? "," : "", options->axis_tolerances[d]);
+        return pia_fit_set(fit, "axis_tolerances", axes);
+    }
+    if (!(options->tolerance > 0)) return PIA_OK;
+    pia_status status = pia_fit_set(fit, "axis_tolerances", "none");
+    return status == PIA_OK ? set_number(fit, "tolerance", options->tolerance, 0) : status;
+}
+
 /* What this command line asks for replaces what the checkpoint remembers. */
 static pia_status set_again(struct fit_job *job, pia_fit *fit)
 {
@@ -158,7 +173,7 @@ static pia_status set_again(struct fit_job *job, pia_fit *fit)
     const pia_fit_options *options = &request->options;
     pia_fit_options unset;
     pia_fit_options_init(&unset);
-    pia_status status = set_number(fit, "tolerance", options->tolerance, unset.tolerance);
+    pia_status status = set_tolerance(job, fit);
     if (!status) status = set_number(fit, "max_iterations", (double)options->max_iterations, (double)unset.max_iterations);
     if (!status) status = set_number(fit, "stop_change", options->stop_change, unset.stop_change);
     if (!status) status = set_number(fit, "stop_gradient", options->stop_gradient, unset.stop_gradient);

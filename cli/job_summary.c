@@ -80,13 +80,16 @@ static int is_choice(const char *note)
 
 /* ---- JSON ---- */
 
-static void put_axes(struct json_writer *json, const pia_fit_options *options, const pia_report *report)
+static void put_axes(struct json_writer *json, const pia_report *report)
 {
-    json_numbers(json, "axis_errors", report->axis_error, options->axis_tolerance_count);
+    int axes = 0;
+    while (axes < PIA_MAX_DIM && !isnan(report->axis_error[axes])) axes++;
+    if (!axes) return;
+    json_numbers(json, "axis_errors", report->axis_error, axes);
     json_count(json, "worst_axis", report->worst_axis);
 }
 
-static void put_report(struct json_writer *json, const pia_fit_options *options, const pia_report *report, pia_index max_error_row)
+static void put_report(struct json_writer *json, const pia_report *report, pia_index max_error_row)
 {
     json_text(json, "kind", kind_name(report->kind));
     json_text(json, "method", report->method);
@@ -102,7 +105,7 @@ static void put_report(struct json_writer *json, const pia_fit_options *options,
     json_number(json, "max_error", report->max_error);
     json_count(json, "max_error_index", max_error_row);
     json_number(json, "rms_error", report->rms_error);
-    if (options->axis_tolerance_count > 0) put_axes(json, options, report);
+    put_axes(json, report);
     json_number(json, "constraint_error", report->constraint_error);
     if (!isnan(report->between_error)) json_number(json, "between_error", report->between_error);
     json_text(json, "measure", report->measure_distance ? "distance" : "parametric");
@@ -115,7 +118,7 @@ static void put_levels(struct json_writer *json, const struct fit_job *job)
     for (pia_index i = 0; i < result->level_done; i++) {
         json_open(json, NULL, '{');
         json_text(json, "level", job->request->levels.item[i]);
-        put_report(json, &job->request->options, &result->report[i], file_row_of(result, &result->report[i]));
+        put_report(json, &result->report[i], file_row_of(result, &result->report[i]));
         json_close(json, '}');
     }
     json_close(json, ']');
@@ -127,7 +130,7 @@ static void put_parts(struct json_writer *json, const struct fit_job *job)
     for (pia_index k = 0; k < job->part_done; k++) {
         const pia_report *report = last_report(&job->result[k]);
         json_open(json, NULL, '{');
-        put_report(json, &job->request->options, report, file_row_of(&job->result[k], report));
+        put_report(json, report, file_row_of(&job->result[k], report));
         json_close(json, '}');
     }
     json_close(json, ']');
@@ -152,7 +155,7 @@ static void print_json(FILE *stream, const struct fit_job *job, const pia_report
 {
     struct json_writer writer = {.stream = stream}, *json = &writer;
     json_open(json, NULL, '{');
-    put_report(json, &job->request->options, report, report->max_error_index);
+    put_report(json, report, report->max_error_index);
     json_open(json, "seconds", '{');
     json_number(json, "read", job->read_seconds);
     json_number(json, "fit", job->fit_seconds);

@@ -349,7 +349,8 @@ int pia_fit_dim(const pia_fit *fit);
 /* A model of the current iterate; the caller destroys it. */
 pia_status pia_fit_model(pia_fit *fit, pia_model **out);
 /* A parameter of the method's record ("omega", "eta", ...), or "tolerance", "max_iterations", "stop_change", "stop_gradient",
- * "time_limit", "trace_every" of the options, as text. */
+ * "time_limit", "trace_every" of the options, as text; or "axis_tolerances": "T1,T2,...", whose box then is all that is asked until
+ * "tolerance" is set, or "none". */
 pia_status pia_fit_set(pia_fit *fit, const char *name, const char *value);
 /* Residual vectors data - model at the parameters used, shaped like the data used (see pia_fit_parameters for its count). */
 pia_status pia_fit_residuals(pia_fit *fit, double *out);

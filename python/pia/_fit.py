@@ -206,7 +206,8 @@ class Fit(_pia.Fit):
     # ---- editing
 
     def set(self, name, value):
-        """A parameter of the method, or 'tolerance', 'max_iterations', 'stop_change', 'stop_gradient', 'time_limit', 'trace_every'."""
+        """A parameter of the method, or 'tolerance', 'max_iterations', 'stop_change', 'stop_gradient', 'time_limit', 'trace_every',
+        'axis_tolerances' (as 'T1,T2,...' or 'none')."""
         self._set(name, str(value))
 
     def move_point(self, row, point):

@@ -194,7 +194,7 @@ static void rules(walk *w, pia_fit *fit)
     if (w->writer != NULL || w->status != PIA_OK) return;
     *r = (pia_rules){
         .tolerance = v[0], .iterations = counts[0], .change = v[1], .gradient = v[2], .time_limit = v[3], .trace_every = counts[1]};
-    if (fit->tolerances != NULL || fit->axis_tolerances != NULL) r->keeps = pia_fit_keeps_tolerances;
+    if (!pia_fit_is_tolerance_alike(fit)) r->keeps = pia_fit_keeps_tolerances;
     fit->options.measure_distance = (int)counts[2];
     fit->options.correct = counts[3];
     fit->options.max_iterations = counts[4];

@@ -137,6 +137,10 @@ pia_status pia_fit_check_options(pia_fit *fit, int directions);
 pia_status pia_fit_take_data(pia_fit *fit, const pia_data *data);
 /* The tolerances of points and axes; options.tolerance becomes the largest that a row has where it was not asked. */
 pia_status pia_fit_take_tolerances(pia_fit *fit, const double *tolerances);
+/* Other tolerances of axes for a running fit, "T1,T2,..." or "none"; the tolerance becomes the radius of the ball around their box. */
+pia_status pia_fit_set_axes(pia_fit *fit, const char *text);
+/* Whether a distance, the same for every row, is all that the tolerance asks. */
+int pia_fit_is_tolerance_alike(const pia_fit *fit);
 /* Whether every row keeps its tolerance, on a tolerance that is not the same for all; residuals are made anew. For rules.keeps. */
 int pia_fit_keeps_tolerances(pia_iterate *iterate);
 /* The largest deviation of each component [dim], from the residuals; returns the one that takes most of its tolerance. */

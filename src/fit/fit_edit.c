@@ -94,6 +94,7 @@ pia_status pia_fit_set(pia_fit *fit, const char *name, const char *value)
 {
     if (name == NULL || value == NULL) return pia_fail(fit->context, PIA_E_ARGUMENT, "name or value is NULL");
     if (pia_fit_whole(fit) != PIA_OK) return PIA_E_MEMORY;
+    if (strcmp(name, "axis_tolerances") == 0) return pia_fit_set_axes(fit, value);
     double number;
     rule_kind kind = kind_of_rule(name);
     const char *end = pia_number_parse(value, value + strlen(value), &number);

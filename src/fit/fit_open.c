@@ -55,7 +55,7 @@ static void set_rules(pia_fit *fit)
     const pia_fit_options *o = &fit->options;
     fit->solve.rules = (pia_rules){
         .tolerance = o->tolerance,
-        .keeps = fit->tolerances != NULL || fit->axis_tolerances != NULL ? pia_fit_keeps_tolerances : NULL,
+        .keeps = pia_fit_is_tolerance_alike(fit) ? NULL : pia_fit_keeps_tolerances,
         .iterations = o->max_iterations != PIA_AUTO ? o->max_iterations
                       : fit->refining               ? INT64_MAX
                                                     : fit->solve.method->iterations,
@@ -156,7 +156,7 @@ static pia_status take_iterate(pia_fit *fit)
     iterate->extent = fit->extent; /* the pass over the points may have found it */
     int fused = fit->solve.method->step != NULL && fit->solve.limiter == NULL;
     if (((needs & PIA_NEEDS_ROWS) != 0 && !fused) || (!fit->square && iterate->normal == NULL) || fit->refining ||
-        fit->tolerances != NULL || fit->axis_tolerances != NULL) {
+        !pia_fit_is_tolerance_alike(fit)) {
         iterate->residual = pia_take(fit->context, fit->rows * fit->dim, sizeof(double));
         if (iterate->residual == NULL) return PIA_E_MEMORY;
     }

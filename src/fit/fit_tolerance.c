@@ -1,6 +1,7 @@
 /* What rows may deviate: a distance, for all or each its own, and beside it what each component may. A deviation counts as its ratio to
  * what is allowed, the largest of them where there are several. */
 #include "draft.h"
+#include "number.h"
 #include "refine.h"
 #include "vector.h"
 
@@ -23,23 +24,29 @@ static pia_status take_rows(pia_fit *fit, const double *tolerances, double *larg
     return PIA_OK;
 }
 
-/* The box of the axes is inside a ball: that is the tolerance of the whole where none was asked. */
-static pia_status take_axes(pia_fit *fit, double *ball)
+static pia_status check_axes(pia_fit *fit, const double *axes, pia_index count)
 {
-    const pia_fit_options *o = &fit->options;
-    double square = 0;
-    if (o->axis_tolerance_count != fit->dim)
+    if (count != fit->dim)
         return pia_fail(fit->context, PIA_E_SHAPE, "%lld axis tolerances were given, but %d components are fitted; give one for each",
-                        (long long)o->axis_tolerance_count, fit->dim);
-    fit->axis_tolerances = pia_take(fit->context, fit->dim, sizeof(double));
-    if (fit->axis_tolerances == NULL) return PIA_E_MEMORY;
-    for (int d = 0; d < fit->dim; d++) {
-        double tolerance = o->axis_tolerances[d];
-        if (!(tolerance > 0) || isinf(tolerance))
-            return pia_fail(fit->context, PIA_E_ARGUMENT, "axis tolerance %d is %g; tolerances are finite and positive", d, tolerance);
-        fit->axis_tolerances[d] = tolerance;
-        square += tolerance * tolerance;
+                        (long long)count, fit->dim);
+    for (int d = 0; d < fit->dim; d++)
+        if (!(axes[d] > 0) || isinf(axes[d]))
+            return pia_fail(fit->context, PIA_E_ARGUMENT, "axis tolerance %d is %g; tolerances are finite and positive", d, axes[d]);
+    return PIA_OK;
+}
+
+/* The box of the axes is inside a ball: that is the tolerance of the whole where none was asked. */
+static pia_status take_axes(pia_fit *fit, const double *axes, pia_index count, double *ball)
+{
+    double square = 0;
+    pia_status status = check_axes(fit, axes, count);
+    if (status == PIA_OK && fit->axis_tolerances == NULL) {
+        fit->axis_tolerances = pia_take(fit->context, fit->dim, sizeof(double));
+        if (fit->axis_tolerances == NULL) status = PIA_E_MEMORY;
     }
+    if (status != PIA_OK) return status;
+    for (int d = 0; d < fit->dim; d++) square += axes[d] * axes[d];
+    memcpy(fit->axis_tolerances, axes, (size_t)fit->dim * sizeof *axes);
     *ball = sqrt(square);
     return PIA_OK;
 }
@@ -48,9 +55,62 @@ pia_status pia_fit_take_tolerances(pia_fit *fit, const double *tolerances)
 {
     double largest = 0, ball = 0;
     pia_status status = tolerances != NULL ? take_rows(fit, tolerances, &largest) : PIA_OK;
-    if (status == PIA_OK && fit->options.axis_tolerance_count > 0) status = take_axes(fit, &ball);
+    if (status == PIA_OK && fit->options.axis_tolerance_count > 0)
+        status = take_axes(fit, fit->options.axis_tolerances, fit->options.axis_tolerance_count, &ball);
     if (!(fit->options.tolerance > 0)) fit->options.tolerance = largest > 0 ? largest : ball;
     return status;
+}
+
+/* Numbers between commas into axes [PIA_MAX_DIM]. Returns how many; -1 where the text is something else. */
+static pia_index read_axes(const char *text, double *axes)
+{
+    const char *end = text + strlen(text);
+    for (pia_index count = 1; count <= PIA_MAX_DIM; count++) {
+        text = pia_number_parse(text, end, &axes[count - 1]);
+        if (text == NULL || (*text != '\0' && *text != ',')) return -1;
+        if (*text++ == '\0') return count;
+    }
+    return -1;
+}
+
+static pia_status drop_axes(pia_fit *fit)
+{
+    if (fit->axis_tolerances != NULL) pia_refine_reopen(fit);
+    pia_give(fit->context, fit->axis_tolerances);
+    fit->axis_tolerances = NULL;
+    return PIA_OK;
+}
+
+static pia_status exchange_axes(pia_fit *fit, const char *text)
+{
+    double axes[PIA_MAX_DIM], ball, *residual = fit->iterate.residual;
+    pia_index count = read_axes(text, axes);
+    if (count < 0)
+        return pia_fail(fit->context, PIA_E_ARGUMENT,
+                        "axis tolerances are numbers between commas, one for each component, or none; '%.40s' is something else", text);
+    if (residual == NULL) residual = pia_take(fit->context, fit->rows * fit->dim, sizeof *residual);
+    if (residual == NULL) return PIA_E_MEMORY;
+    fit->iterate.residual = residual;
+    if (fit->axis_tolerances == NULL || count != fit->dim || memcmp(axes, fit->axis_tolerances, (size_t)count * sizeof *axes) != 0)
+        pia_refine_reopen(fit);
+    pia_status status = take_axes(fit, axes, count, &ball);
+    if (status == PIA_OK) fit->options.tolerance = fit->solve.rules.tolerance = ball;
+    return status;
+}
+
+pia_status pia_fit_set_axes(pia_fit *fit, const char *text)
+{
+    pia_status status = strcmp(text, "none") == 0 ? drop_axes(fit) : exchange_axes(fit, text);
+    if (status != PIA_OK) return status;
+    fit->solve.rules.keeps = pia_fit_is_tolerance_alike(fit) ? NULL : pia_fit_keeps_tolerances;
+    fit->solve.stop = PIA_STOP_NONE;
+    fit->iterate.errors_known = 0;
+    return PIA_OK;
+}
+
+int pia_fit_is_tolerance_alike(const pia_fit *fit)
+{
+    return fit->tolerances == NULL && fit->axis_tolerances == NULL;
 }
 
 /* A row without weight says nothing. */
@@ -101,7 +161,7 @@ PIA_CLONES static double longest_deviation(const double *deviation, pia_index co
 /* Whether the distance is all that counts, and the same for every row. */
 static int is_alike(const pia_fit *fit)
 {
-    return fit->tolerances == NULL && fit->axis_tolerances == NULL && fit->weights == NULL;
+    return pia_fit_is_tolerance_alike(fit) && fit->weights == NULL;
 }
 
 double pia_refine_worst(const pia_fit *fit, pia_index begin, pia_index end)

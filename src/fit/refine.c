@@ -44,7 +44,7 @@ int pia_refine_reached(const pia_fit *fit)
 /* A tolerance that would do; where not all rows may deviate alike, how many times theirs. */
 static void note_reachable(pia_fit *fit)
 {
-    int alike = fit->tolerances == NULL && fit->axis_tolerances == NULL;
+    int alike = pia_fit_is_tolerance_alike(fit);
     pia_fit_note_add(fit, "the tolerance cannot be had with these parameters%s: no knot is left that the data could hold; %g%s can",
                      fit->constraint_count > 0 ? " and constraints" : "",
                      alike ? fit->iterate.errors.max : pia_refine_worst(fit, 0, fit->rows), alike ? "" : " times it");

@@ -267,6 +267,50 @@ static void tolerances_of_axes_go_on_as_well(void **state)
     check_fit(&options);
 }
 
+/* The loop of a method knew no axes when it was opened. */
+static void axes_are_asked_exchanged_and_dropped_on_the_way(void **state)
+{
+    pia_context *context;
+    (void)state;
+    assert_int_equal(pia_context_create(NULL, &context), PIA_OK);
+    double points[2 * ROWS];
+    fill(points, 0);
+    pia_data data;
+    pia_data_init(&data);
+    data.points = points;
+    data.count[0] = ROWS;
+    data.dim = 2;
+    pia_fit_options options;
+    pia_fit_options_init(&options);
+    options.method = "lspia";
+    options.control[0] = 40;
+    pia_fit *fit;
+    pia_report report = {.struct_size = sizeof report};
+    assert_ok(context, pia_fit_open(context, &data, &options, &fit));
+    assert_ok(context, pia_fit_run(fit, &report));
+    assert_int_equal(report.reached, PIA_AUTO);
+    assert_true(isnan(report.axis_error[0]));
+    double error = report.max_error;
+    char text[80];
+    snprintf(text, sizeof text, "%.17g,%.17g", error, error);
+    assert_ok(context, pia_fit_set(fit, "axis_tolerances", text));
+    assert_ok(context, pia_fit_run(fit, &report));
+    assert_int_equal(report.stop, PIA_STOP_TOLERANCE);
+    assert_int_equal(report.reached, 1);
+    assert_true(report.axis_error[0] <= error && report.axis_error[1] <= error);
+    assert_ok(context, pia_fit_set(fit, "axis_tolerances", "1,1e-12"));
+    assert_ok(context, pia_fit_report(fit, &report));
+    assert_int_equal(report.reached, 0);
+    assert_int_equal(report.worst_axis, 1);
+    assert_ok(context, pia_fit_set(fit, "axis_tolerances", "none"));
+    assert_ok(context, pia_fit_report(fit, &report));
+    assert_int_equal(report.reached, 1); /* within the ball, which stays */
+    const char *const bad[] = {"", "1", "1,2,3", "1,0", "1,-1", "1,x", "1,2,"};
+    for (size_t k = 0; k < sizeof bad / sizeof *bad; k++) assert_int_not_equal(pia_fit_set(fit, "axis_tolerances", bad[k]), PIA_OK);
+    pia_fit_close(fit);
+    pia_context_destroy(context);
+}
+
 static void a_damaged_checkpoint_is_refused(void **state)
 {
     (void)state;
@@ -330,6 +374,7 @@ int main(void)
         cmocka_unit_test(tolerances_of_axes_go_on_as_well),
         cmocka_unit_test(refining_a_curve_goes_on_with_the_same_bits),
         cmocka_unit_test(refining_a_surface_goes_on_with_the_same_bits),
+        cmocka_unit_test(axes_are_asked_exchanged_and_dropped_on_the_way),
         cmocka_unit_test(a_damaged_checkpoint_is_refused),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
