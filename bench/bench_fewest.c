@@ -6,17 +6,15 @@
  * A peer that does not reach the tolerance is asked again for a smaller one, and the first result that reaches it counts, with the
  * time of that attempt alone. One that took longer than the limit is not asked for a smaller tolerance of the same curve: it is marked
  * "late" there too. */
-#include <fcntl.h>
 #include <math.h>
-#include <signal.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/wait.h>
 #include <time.h>
 #include <unistd.h>
 
 #include "pia/pia.h"
+#include "run_peer.h"
 
 enum { MAX_CASES = 400, PEERS = 3 };
 static const double relative[] = {1e-2, 1e-3, 1e-4};
@@ -47,11 +45,6 @@ static double seconds_of(clockid_t clock)
     struct timespec t;
     clock_gettime(clock, &t);
     return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
-}
-
-static double now(void)
-{
-    return seconds_of(CLOCK_MONOTONIC);
 }
 
 /* ---- the cases ---- */
@@ -147,12 +140,12 @@ static outcome ours(pia_context *context, const settings *s, const curve *c, dou
     options.tolerance = tolerance;
     options.measure_distance = s->distance;
     options.time_limit = s->limit;
-    double start = now(), used = seconds_of(CLOCK_PROCESS_CPUTIME_ID);
+    double start = run_peer_now(), used = seconds_of(CLOCK_PROCESS_CPUTIME_ID);
     if (pia_fit_data(context, &data, &options, &model, &report) != PIA_OK) {
         fprintf(stderr, "%s: %s\n", c->name, pia_message(context));
         return (outcome){0};
     }
-    outcome out = {.control = report.control_count, .seconds = now() - start, .between = report.between_error};
+    outcome out = {.control = report.control_count, .seconds = run_peer_now() - start, .between = report.between_error};
     out.processor = seconds_of(CLOCK_PROCESS_CPUTIME_ID) - used;
     out = measure(context, c, model, tolerance, out);
     if (report.reached == 1 && !out.reached) printf("WRONG: %s says reached at %g but deviates %g\n", c->name, tolerance, out.error);
@@ -168,35 +161,6 @@ static void write_case(const curve *c, double tolerance, const char *path)
     for (pia_index i = 0; i < c->rows; i++)
         for (int d = 0; d < c->dim; d++) fprintf(file, d + 1 < c->dim ? "%.17g " : "%.17g\n", c->points[i * c->dim + d]);
     fclose(file);
-}
-
-/* Runs a peer with its standard output in `result`; 0 when it failed or took longer than `limit` seconds. */
-static int run_peer(const settings *s, int peer, const char *path, const char *result, double limit)
-{
-    pid_t child = fork();
-    if (child == 0) {
-        char program[600];
-        int out = open(result, O_WRONLY | O_CREAT | O_TRUNC, 0644), silent = open("/dev/null", O_WRONLY);
-        dup2(out, STDOUT_FILENO);
-        dup2(silent, STDERR_FILENO);
-        snprintf(program, sizeof program, "%s/peer_%s", s->directory, peer_names[peer]);
-        if (strcmp(peer_names[peer], "scipy") == 0)
-            execlp("/usr/bin/python3", "/usr/bin/python3", PIA_BENCH "/peers/peer_scipy.py", path, (char *)NULL);
-        else
-            execl(program, program, path, (char *)NULL);
-        _exit(127);
-    }
-    double start = now();
-    int status;
-    while (waitpid(child, &status, WNOHANG) == 0) {
-        if (now() - start > limit) {
-            kill(child, SIGKILL);
-            waitpid(child, &status, 0);
-            return 0;
-        }
-        nanosleep(&(struct timespec){0, 2000000}, NULL);
-    }
-    return WIFEXITED(status) && WEXITSTATUS(status) == 0;
 }
 
 static outcome read_result(pia_context *context, const curve *c, const char *path, double tolerance)
@@ -229,13 +193,15 @@ static outcome theirs(pia_context *context, const settings *s, int peer, const c
     snprintf(path, sizeof path, "fewest_%d.case", (int)getpid());
     snprintf(result, sizeof result, "fewest_%d.result", (int)getpid());
     outcome out = {0};
-    double factor = 1, start = now();
-    for (int attempt = 0; attempt < 4 && !out.reached && now() - start < s->limit; attempt++, factor *= 0.7) {
+    double factor = 1, start = run_peer_now();
+    for (int attempt = 0; attempt < 4 && !out.reached && run_peer_now() - start < s->limit; attempt++, factor *= 0.7) {
         write_case(c, tolerance * factor, path);
-        out = run_peer(s, peer, path, result, s->limit - (now() - start)) ? read_result(context, c, result, tolerance) : (outcome){0};
+        out = run_peer(s->directory, PIA_BENCH "/peers", peer_names[peer], path, result, s->limit - (run_peer_now() - start))
+                  ? read_result(context, c, result, tolerance)
+                  : (outcome){0};
         if (out.control == 0) break;
     }
-    out.late = !out.reached && now() - start >= s->limit;
+    out.late = !out.reached && run_peer_now() - start >= s->limit;
     remove(path);
     remove(result);
     return out;
