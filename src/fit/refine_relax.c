@@ -3,6 +3,7 @@
  * the data and a solve with the factors at hand; a weighted fit towards the smallest largest deviation would need new ones. */
 #include "refine.h"
 
+#include "clones.h"
 #include "constraint.h"
 #include "kernel.h"
 
@@ -26,26 +27,47 @@ typedef struct round_work {
     pia_index chunks;
 } round_work;
 
-/* x := x + b - a, b = the nearest to 2 a - x within the ball, a the residual; and what is missing from a to x. With limits of
- * components b is brought into the box as well: a point of both, nearest where only one of them is left. */
+/* x := x + b - a, b = the nearest to 2 a - x within the ball, a the residual; and what is missing from a to x. */
+PIA_INLINE void reflect(const double *a, double allowed, int dim, double *x, double *missing)
+{
+    double reflected[PIA_MAX_DIM], square = 0;
+    for (int d = 0; d < dim; d++) reflected[d] = 2 * a[d] - x[d];
+    for (int d = 0; d < dim; d++) square += reflected[d] * reflected[d];
+    double factor = square > allowed * allowed ? allowed / sqrt(square) : 1;
+    for (int d = 0; d < dim; d++) {
+        x[d] += factor * reflected[d] - a[d];
+        missing[d] = a[d] - x[d];
+    }
+}
+
+/* With limits of components b is brought into the box as well: a point of both, nearest where only one of them is left. */
+static void reflect_within(const double *a, double allowed, const double *axis, int dim, double *x, double *missing)
+{
+    double before[PIA_MAX_DIM];
+    memcpy(before, x, (size_t)dim * sizeof *before);
+    reflect(a, allowed, dim, x, missing);
+    for (int d = 0; d < dim; d++) {
+        double most = INSIDE * axis[d], b = x[d] - before[d] + a[d];
+        x[d] = before[d] + fmax(-most, fmin(b, most)) - a[d];
+        missing[d] = a[d] - x[d];
+    }
+}
+
 static void reflect_chunk(void *work, pia_index chunk)
 {
     const round_work *w = work;
-    const double *axis = w->fit->axis_tolerances;
-    int dim = w->fit->dim;
-    pia_index begin = pia_chunk_begin(w->fit->rows, w->chunks, chunk), end = pia_chunk_begin(w->fit->rows, w->chunks, chunk + 1);
+    const pia_fit *fit = w->fit;
+    int dim = fit->dim;
+    pia_index begin = pia_chunk_begin(fit->rows, w->chunks, chunk), end = pia_chunk_begin(fit->rows, w->chunks, chunk + 1);
     for (pia_index row = begin; row < end; row++) {
-        const double *a = w->fit->iterate.residual + row * dim;
-        double *x = w->x + row * dim, *missing = w->missing + row * dim;
-        double reflected[PIA_MAX_DIM], square = 0, allowed = INSIDE * pia_refine_allowed(w->fit, row);
-        for (int d = 0; d < dim; d++) reflected[d] = 2 * a[d] - x[d];
-        for (int d = 0; d < dim; d++) square += reflected[d] * reflected[d];
-        double factor = square > allowed * allowed ? allowed / sqrt(square) : 1;
-        for (int d = 0; d < dim; d++) {
-            double most = axis != NULL ? INSIDE * axis[d] : INFINITY;
-            x[d] += fmax(-most, fmin(factor * reflected[d], most)) - a[d];
-            missing[d] = a[d] - x[d];
-        }
+        const double *a = fit->iterate.residual + row * dim;
+        double *x = w->x + row * dim, *missing = w->missing + row * dim, allowed = INSIDE * pia_refine_allowed(fit, row);
+        if (fit->axis_tolerances != NULL)
+            reflect_within(a, allowed, fit->axis_tolerances, dim, x, missing);
+        else if (dim == 3)
+            reflect(a, allowed, 3, x, missing);
+        else
+            reflect(a, allowed, dim, x, missing);
     }
 }
 

@@ -152,9 +152,8 @@ pia_index pia_collocation_begin(const pia_collocation *c, pia_index span)
     return span <= c->degree ? 0 : span > c->last ? c->rows : first_from(c, 0, c->knots[span]);
 }
 
-const double *pia_collocation_row(const pia_collocation *c, pia_index row, pia_index span, double *scratch)
+const double *pia_collocation_compute_row(const pia_collocation *c, pia_index row, pia_index span, double *scratch)
 {
-    if (c->values != NULL) return c->values + row * (c->degree + 1);
     pia_basis_values(c->knots, c->degree, span, c->parameters[row], scratch);
     return scratch;
 }

@@ -36,8 +36,13 @@ void pia_collocation_close(pia_context *context, pia_collocation *c);
 /* The parameters behind the pointer have changed (still sorted): spans and values anew. */
 void pia_collocation_rebucket(pia_collocation *c);
 
-/* The degree + 1 basis values of a row on its span: stored ones, or computed into scratch. */
-const double *pia_collocation_row(const pia_collocation *c, pia_index row, pia_index span, double *scratch);
+/* The degree + 1 basis values of a row on its span, computed into scratch, which is returned. */
+const double *pia_collocation_compute_row(const pia_collocation *c, pia_index row, pia_index span, double *scratch);
+/* The same, stored ones where there are. */
+static inline const double *pia_collocation_row(const pia_collocation *c, pia_index row, pia_index span, double *scratch)
+{
+    return c->values != NULL ? c->values + row * (c->degree + 1) : pia_collocation_compute_row(c, row, span, scratch);
+}
 /* Span of a row; O(log spans). */
 pia_index pia_collocation_span(const pia_collocation *c, pia_index row);
 /* Span of a row of a square matrix that holds its own unknown, at most `degree` knots further; -1 for others. O(degree). */

@@ -52,33 +52,33 @@ static double *plane(const pass *p, pia_index control, int d)
 }
 
 /* Planes of control row i: sum_j N_j(v_s) P[i][j]. */
-PIA_INLINE void evaluate_along_v(const pass *p, pia_index i, int degree)
+PIA_INLINE void evaluate_along_v(const pass *p, pia_index i, int degree, int dim)
 {
     const pia_collocation *v = p->v;
-    double scratch[PIA_MAX_DEGREE + 1];
-    for (int d = 0; d < p->dim; d++) {
-        double *to = plane(p, i, d);
-        for (pia_index s = 0; s < v->full - degree; s++) {
-            const double *control = p->in + (i * v->full + s) * p->dim + d;
-            for (pia_index row = v->begin[s]; row < v->begin[s + 1]; row++) {
-                const double *value = pia_collocation_row(v, row, degree + s, scratch);
-                double sum = value[0] * control[0];
-                for (int k = 1; k <= degree; k++) sum += value[k] * control[k * p->dim];
-                to[row] = sum;
+    double scratch[PIA_MAX_DEGREE + 1], *to = plane(p, i, 0);
+    for (pia_index s = 0; s < v->full - degree; s++) {
+        const double *control = p->in + (i * v->full + s) * dim;
+        for (pia_index row = v->begin[s]; row < v->begin[s + 1]; row++) {
+            const double *value = pia_collocation_row(v, row, degree + s, scratch);
+            for (int d = 0; d < dim; d++) {
+                double sum = value[0] * control[d];
+                for (int k = 1; k <= degree; k++) sum += value[k] * control[k * dim + d];
+                to[d * p->stride + row] = sum;
             }
         }
-        for (pia_index row = v->rows; row < p->stride; row++) to[row] = 0;
     }
+    for (int d = 0; d < dim; d++)
+        for (pia_index row = v->rows; row < p->stride; row++) to[d * p->stride + row] = 0;
 }
 
 static void along_v(void *work, pia_index chunk)
 {
     const pass *p = work;
     for (pia_index i = pia_chunk_begin(p->lines, p->chunks, chunk); i < pia_chunk_begin(p->lines, p->chunks, chunk + 1); i++)
-        if (p->v->degree == 3)
-            evaluate_along_v(p, i, 3);
+        if (p->v->degree == 3 && p->dim == 3)
+            evaluate_along_v(p, i, 3, 3);
         else
-            evaluate_along_v(p, i, p->v->degree);
+            evaluate_along_v(p, i, p->v->degree, p->dim);
 }
 
 /* The rows of a chunk in groups of one span; `take` works on rows [row, row + count) whose planes begin with control row `first`. */
@@ -301,29 +301,56 @@ static pia_errors residual(const pia_op *op, const double *full, const pia_targe
     return errors[0];
 }
 
-/* along[i] = sum over data rows r of N_i(u_r) values[r], for a chunk of control rows i; then full[i] = along[i] A_v. */
+/* ---- the transposed map ---- */
+
+/* line [columns x dim] += value, times the weight of each column, times from. */
+PIA_INLINE void add_row(double value, const double *from, const double *weights, pia_index columns, int dim, double *line)
+{
+    pia_index width = columns * dim;
+    if (weights == NULL)
+        for (pia_index k = 0; k < width; k++) line[k] += value * from[k];
+    else
+        for (pia_index k = 0; k < width; k++) line[k] += weights[k / dim] * value * from[k];
+}
+
+/* Sum over data rows r of N_i(u_r) values[r]. */
+PIA_CLONES static void gather_along_u(const pass *p, pia_index i, double *line)
+{
+    const pia_collocation *u = p->u;
+    pia_index columns = p->v->rows;
+    double scratch[PIA_MAX_DEGREE + 1];
+    memset(line, 0, (size_t)(columns * p->dim) * sizeof *line);
+    for (pia_index s = i > u->degree ? i - u->degree : 0; s <= i && s < u->full - u->degree; s++)
+        for (pia_index row = u->begin[s]; row < u->begin[s + 1]; row++)
+            add_row(pia_collocation_row(u, row, u->degree + s, scratch)[i - s], p->in + row * columns * p->dim,
+                    p->weights != NULL ? p->weights + row * columns : NULL, columns, p->dim, line);
+}
+
+/* to = line A_v. */
+PIA_INLINE void gather_along_v(const pass *p, const double *line, double *to, int degree, int dim)
+{
+    const pia_collocation *v = p->v;
+    double scratch[PIA_MAX_DEGREE + 1];
+    memset(to, 0, (size_t)(v->full * dim) * sizeof *to);
+    for (pia_index s = 0; s < v->full - degree; s++)
+        for (pia_index row = v->begin[s]; row < v->begin[s + 1]; row++) {
+            const double *value = pia_collocation_row(v, row, degree + s, scratch);
+            for (int k = 0; k <= degree; k++)
+                for (int d = 0; d < dim; d++) to[(s + k) * dim + d] += value[k] * line[row * dim + d];
+        }
+}
+
 static void gather_chunk(void *work, pia_index chunk)
 {
     const pass *p = work;
-    const pia_collocation *u = p->u, *v = p->v;
-    pia_index width = v->rows * p->dim;
-    double scratch[PIA_MAX_DEGREE + 1];
+    const pia_collocation *v = p->v;
     for (pia_index i = pia_chunk_begin(p->lines, p->chunks, chunk); i < pia_chunk_begin(p->lines, p->chunks, chunk + 1); i++) {
-        double *line = p->along + i * width, *to = p->out + i * v->full * p->dim;
-        memset(line, 0, (size_t)width * sizeof *line);
-        for (pia_index s = i > u->degree ? i - u->degree : 0; s <= i && s < u->full - u->degree; s++)
-            for (pia_index row = u->begin[s]; row < u->begin[s + 1]; row++) {
-                double value = pia_collocation_row(u, row, u->degree + s, scratch)[i - s];
-                const double *from = p->in + row * width, *w = p->weights != NULL ? p->weights + row * v->rows : NULL;
-                for (pia_index k = 0; k < width; k++) line[k] += (w != NULL ? w[k / p->dim] * value : value) * from[k];
-            }
-        memset(to, 0, (size_t)(v->full * p->dim) * sizeof *to);
-        for (pia_index s = 0; s < v->full - v->degree; s++)
-            for (pia_index row = v->begin[s]; row < v->begin[s + 1]; row++) {
-                const double *value = pia_collocation_row(v, row, v->degree + s, scratch);
-                for (int k = 0; k <= v->degree; k++)
-                    for (int d = 0; d < p->dim; d++) to[(s + k) * p->dim + d] += value[k] * line[row * p->dim + d];
-            }
+        double *line = p->along + i * v->rows * p->dim, *to = p->out + i * v->full * p->dim;
+        gather_along_u(p, i, line);
+        if (v->degree == 3 && p->dim == 3)
+            gather_along_v(p, line, to, 3, 3);
+        else
+            gather_along_v(p, line, to, v->degree, p->dim);
     }
 }
 
