@@ -61,7 +61,7 @@ static void put_limit_history(void *user, const char *name, double *numbers, pia
     array(user, section, PIA_SECTION_DOUBLE, numbers, count);
 }
 
-enum { INDEX_COUNT = 26 };
+enum { INDEX_COUNT = 27 };
 
 static void shape(walk *w, pia_fit *fit)
 {
@@ -70,7 +70,7 @@ static void shape(walk *w, pia_fit *fit)
                                 fit->square,    fit->degree[0],  fit->degree[1], fit->closed[0],        fit->closed[1],
                                 fit->full[0],   fit->full[1],    fit->map[0],    fit->map[1],           fit->offset[0],
                                 fit->offset[1], fit->refining,   fit->round,     fit->constraint_count, fit->parameters_moved,
-                                fit->pinned};
+                                fit->pinned,    fit->was_grid};
     array(w, "shape", PIA_SECTION_INDEX, v, INDEX_COUNT);
     if (w->writer != NULL || w->status != PIA_OK) return;
     fit->kind = (pia_kind)v[0];
@@ -87,6 +87,7 @@ static void shape(walk *w, pia_fit *fit)
     fit->constraint_count = v[23];
     fit->parameters_moved = (int)v[24];
     fit->pinned = (int)v[25];
+    fit->was_grid = (int)v[26];
     for (int d = 0; d < 2; d++) {
         fit->count[d] = v[4 + d];
         fit->degree[d] = (int)v[11 + d];

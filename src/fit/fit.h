@@ -63,6 +63,7 @@ struct pia_fit {
     int careful;             /* 1: data are checked before they are used, and control points are numbers before the first step */
 
     pia_kind kind;
+    int was_grid; /* 1: scattered rows are those of a grid, whose parameters have moved */
     int directions;
     int dim; /* components that are fitted: one less than the data's for function graphs */
     int function_graph;

@@ -280,9 +280,12 @@ static void note_measure(pia_fit *fit)
 {
     const pia_fit_options *o = &fit->options;
     if (!o->measure_distance && o->correct <= 0) return;
-    if (fit->kind == PIA_GRID || fit->function_graph)
-        pia_fit_note_add(fit, "parameters are corrected for curves and scattered points only: deviations are those at the parameters "
-                              "given or chosen, and true distances are never larger");
+    int grid = fit->kind == PIA_GRID && !(o->measure_distance && fit->refining);
+    if (grid || fit->function_graph)
+        pia_fit_note_add(fit,
+                         "parameters of %s are not corrected: deviations are those at the parameters given or chosen, and true "
+                         "distances are never larger",
+                         fit->function_graph ? "function graphs" : "grids without --tolerance and --measure distance");
     else if (fit->square || (o->measure_distance && !fit->refining))
         pia_fit_note_add(fit, "true distance is what a tolerance without a number of control points can ask for; here deviations are "
                               "those at the parameters");

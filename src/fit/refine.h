@@ -74,6 +74,8 @@ void pia_refine_reopen(pia_fit *fit);
  * always 1. */
 int pia_refine_helps(const pia_fit *fit);
 void pia_refine_watch(pia_fit *fit);
+/* Makes scattered rows at their foot points of a grid; knots and control points stay. */
+pia_status pia_refine_scatter(pia_fit *fit);
 /* Scattered points whose true distance counts: parameters to the foot points, and least squares there. Taken back, with
  * fit->stage.feet 0, where that brings nothing, or loses the tolerance. */
 pia_status pia_refine_move_to_feet(pia_fit *fit);

@@ -1,5 +1,6 @@
 /* A surface to a tolerance. Grow: the strips of spans that deviate too much are split in one direction or the other, whichever takes
- * more of the error away for the control points it costs. Spare: knot lines are taken away as long as the tolerance holds. */
+ * more of the error away for the control points it costs. Spare: knot lines are taken away as long as the tolerance holds. Where true
+ * distances count, a grid goes through that twice: at the parameters of its lines, then with foot points. */
 #include "refine.h"
 
 #include <math.h>
@@ -130,7 +131,7 @@ static pia_status grow(pia_fit *fit, int *possible)
     return status;
 }
 
-pia_status pia_refine_surface(pia_fit *fit)
+static pia_status grow_and_spare(pia_fit *fit)
 {
     pia_status status = fit->round == 0 ? pia_refine_solve(fit) : PIA_OK;
     if (status == PIA_OK && fit->round == 0 && fit->solve.rules.trace_every > 0) status = pia_solve_trace(&fit->solve);
@@ -157,4 +158,12 @@ pia_status pia_refine_surface(pia_fit *fit)
         if (status == PIA_OK) status = pia_refine_count(fit);
     }
     return status;
+}
+
+pia_status pia_refine_surface(pia_fit *fit)
+{
+    pia_status status = grow_and_spare(fit);
+    if (status != PIA_OK || fit->kind != PIA_GRID || !fit->options.measure_distance || pia_refine_stopped(fit)) return status;
+    status = pia_refine_scatter(fit);
+    return status == PIA_OK ? grow_and_spare(fit) : status;
 }

@@ -376,6 +376,38 @@ static void surfaces_keep_the_tolerance(void **state)
     pia_context_destroy(context);
 }
 
+/* A steep sheet, open and in a ring, whole and with a hole: measured at the closest points of the model. */
+static void true_distance_of_grids_is_kept_with_fewer_control_points(void **state)
+{
+    (void)state;
+    pia_context *context;
+    assert_ok(NULL, pia_context_create(NULL, &context));
+    for (int closed = 0; closed < 2; closed++)
+        for (int hole = 0; hole < 2; hole++) {
+            problem p = sheet(PIA_GRID, 3, closed, 0.1);
+            for (int i = 0; i < 30 * 45; i++) p.points[3 * i + 2] *= closed ? 1 : 4;
+            if (hole) p.points[3 * (12 * 45 + 20) + 2] = NAN;
+            pia_report plain = {.struct_size = sizeof plain}, distance = {.struct_size = sizeof distance};
+            pia_model *model;
+            assert_ok(context, pia_fit_data(context, &p.data, &p.options, NULL, &plain));
+            p.options.measure_distance = 1;
+            assert_ok(context, pia_fit_data(context, &p.data, &p.options, &model, &distance));
+            assert_int_equal(distance.kind, PIA_GRID);
+            assert_int_equal(distance.measure_distance, 1);
+            assert_int_equal(distance.reached, 1);
+            assert_true(distance.control_count < plain.control_count);
+            double away[30 * 45], parameter[2];
+            for (int i = 0; i < 30 * 45; i++) {
+                if (isnan(p.points[3 * i + 2])) continue;
+                assert_ok(context, pia_model_closest(context, model, p.points + 3 * i, 1, parameter, &away[i]));
+                assert_true(away[i] <= p.options.tolerance);
+            }
+            pia_model_destroy(model);
+            free(p.points);
+        }
+    pia_context_destroy(context);
+}
+
 /* Scattered rows on the borders of spans: basis functions are 0 there but for rounding, which holds no control point. */
 static void rows_on_knots_are_as_far_as_is_said(void **state)
 {
@@ -755,6 +787,7 @@ int main(void)
         cmocka_unit_test(the_noise_of_points_suggests_a_tolerance),
         cmocka_unit_test(correction_brings_points_closer),
         cmocka_unit_test(true_distance_needs_fewer_control_points),
+        cmocka_unit_test(true_distance_of_grids_is_kept_with_fewer_control_points),
         cmocka_unit_test(single_steps_come_to_the_same_fit),
         cmocka_unit_test(a_cancelled_fit_keeps_a_model),
     };

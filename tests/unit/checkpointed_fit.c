@@ -233,7 +233,7 @@ static void refining_a_surface_goes_on_with_the_same_bits(void **state)
     (void)state;
     static double points[3 * SIDE * SIDE];
     for (int scattered = 0; scattered < 2; scattered++)
-        for (int distance = 0; distance <= scattered; distance++)
+        for (int distance = 0; distance < 2; distance++)
             for (sheet what = WAVE; what <= NOISE; what += scattered ? 2 : 1) {
                 fill_sheet(points, !scattered, what);
                 pia_data data;
