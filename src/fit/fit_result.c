@@ -40,8 +40,10 @@ static pia_index data_row(const pia_fit *fit, pia_index row)
 
 static void describe(const pia_fit *fit, pia_report *report)
 {
-    *report =
-        (pia_report){.struct_size = sizeof *report, .kind = fit->was_grid ? PIA_GRID : fit->kind, .point_count = fit->rows, .repaired_count = fit->dropped_count};
+    *report = (pia_report){.struct_size = sizeof *report,
+                           .kind = fit->was_grid ? PIA_GRID : fit->kind,
+                           .point_count = fit->rows,
+                           .repaired_count = fit->dropped_count};
     pia_fit_names(fit, report);
     report->control_count = 1;
     for (int d = 0; d < 2; d++) {
