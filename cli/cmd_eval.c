@@ -209,7 +209,12 @@ static int write_table(struct request *request, const struct table *table)
     }
     pia_status status = pia_table_write(session->context, path, format, request->heading ? table->heading : NULL, table->value,
                                         table->rows, table->columns);
-    return session_check(session, status, path);
+    int code = session_check(session, status, path);
+    if (code || !session->json) return code;
+    struct texts outputs = {0};
+    session_append(session, &outputs, path);
+    json_outputs(stdout, &outputs);
+    return EXIT_DONE;
 }
 
 int cmd_eval(struct session *session, int argc, char **argv)
