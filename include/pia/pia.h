@@ -96,8 +96,8 @@ typedef struct pia_context_options {
 } pia_context_options;
 
 /* The defaults: as many threads as pay, best backend, the C library's memory, silent. Of that memory a context keeps
- * released blocks of 4 MB and more, at most 8 and 512 MB in all, for the next call: what was touched before is several times faster
- * than fresh memory. They are marked free (MADV_FREE), so that the kernel takes them where it needs memory. */
+ * released blocks of 128 kB and more, at most 32 and 512 MB in all, for the next call: what was touched before is several times faster
+ * than fresh memory. Those of 4 MB and more are marked free (MADV_FREE), so that the kernel takes them where it needs memory. */
 void pia_context_options_init(pia_context_options *options);
 /* options NULL: defaults. Errors: PIA_E_ARGUMENT, PIA_E_UNAVAILABLE (backend), PIA_E_MEMORY. */
 pia_status pia_context_create(const pia_context_options *options, pia_context **out);

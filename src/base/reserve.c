@@ -8,8 +8,10 @@
 #include <stdlib.h>
 #include <sys/mman.h>
 
-enum { BLOCKS = 8, MOST_BYTES = 512 << 20 };
+/* LEAST: from here on the C library maps memory for a block, and unmaps it. */
+enum { LEAST = 128 << 10, LARGE = 8, BLOCKS = 32, MOST_BYTES = 512 << 20 };
 
+/* Places up to LARGE are for blocks of whole huge pages, the others for smaller ones, which would crowd them out. */
 typedef struct reserve {
     _Atomic(void *) block[BLOCKS];
     atomic_llong bytes;
@@ -21,10 +23,15 @@ static void drop(reserve *r, void *block)
     free(block);
 }
 
-/* Into an empty place; returns 0 where there is none. */
-static int put(reserve *r, void *block)
+static int is_large(const void *block, size_t has)
 {
-    for (int k = 0; k < BLOCKS; k++) {
+    return (uintptr_t)block % PIA_HUGE_PAGE == 0 && has >= PIA_LARGE_BLOCK;
+}
+
+/* Into an empty place; returns 0 where there is none. */
+static int put(reserve *r, void *block, int large)
+{
+    for (int k = large ? 0 : LARGE; k < (large ? LARGE : BLOCKS); k++) {
         void *none = NULL;
         if (atomic_compare_exchange_strong(&r->block[k], &none, block)) return 1;
     }
@@ -34,7 +41,8 @@ static int put(reserve *r, void *block)
 /* One of that size or up to half more; NULL where there is none. */
 static void *take(reserve *r, size_t size)
 {
-    for (int k = 0; k < BLOCKS; k++) {
+    int large = size >= PIA_LARGE_BLOCK;
+    for (int k = large ? 0 : LARGE; k < (large ? LARGE : BLOCKS); k++) {
         if (atomic_load_explicit(&r->block[k], memory_order_relaxed) == NULL) continue;
         void *block = atomic_exchange(&r->block[k], NULL);
         if (block == NULL) continue;
@@ -43,18 +51,18 @@ static void *take(reserve *r, size_t size)
             atomic_fetch_sub(&r->bytes, (long long)has);
             return block;
         }
-        if (!put(r, block)) drop(r, block);
+        if (!put(r, block, large)) drop(r, block);
     }
     return NULL;
 }
 
-/* Returns 0 where it is one too many. Its pages stay what they are until somebody writes to them or the kernel has taken them. */
-static int keep(reserve *r, void *block)
+/* Returns 0 where it is one too many. Large pages stay what they are until somebody writes to them or the kernel has taken them. */
+static int keep(reserve *r, void *block, size_t has)
 {
-    size_t has = malloc_usable_size(block);
+    int large = is_large(block, has);
     if (atomic_fetch_add(&r->bytes, (long long)has) + (long long)has <= MOST_BYTES) {
-        (void)madvise(block, has / PIA_HUGE_PAGE * PIA_HUGE_PAGE, MADV_FREE);
-        if (put(r, block)) return 1;
+        if (large) (void)madvise(block, has / PIA_HUGE_PAGE * PIA_HUGE_PAGE, MADV_FREE);
+        if (put(r, block, large)) return 1;
     }
     atomic_fetch_sub(&r->bytes, (long long)has);
     return 0;
@@ -63,14 +71,14 @@ static int keep(reserve *r, void *block)
 static void *allocate(void *user, size_t size, size_t align)
 {
     const pia_memory *c = pia_memory_default();
-    void *block = size >= PIA_LARGE_BLOCK ? take(user, size) : NULL;
+    void *block = size >= LEAST ? take(user, size) : NULL;
     return block != NULL ? block : c->allocate(c->user, size, align);
 }
 
 static void release(void *user, void *block)
 {
-    int large = (uintptr_t)block % PIA_HUGE_PAGE == 0 && malloc_usable_size(block) >= PIA_LARGE_BLOCK;
-    if (!large || !keep(user, block)) free(block);
+    size_t has = malloc_usable_size(block);
+    if (has < LEAST || !keep(user, block, has)) free(block);
 }
 
 pia_status pia_reserve_open(pia_memory *out)

@@ -38,6 +38,23 @@ static void a_large_block_is_handed_to_the_next(void **state)
     pia_reserve_close(&memory);
 }
 
+static void smaller_blocks_leave_the_places_of_large_ones_alone(void **state)
+{
+    (void)state;
+    pia_memory memory = open_reserve();
+    void *small[40], *large = take(&memory, LARGE), *again;
+    for (int k = 0; k < 40; k++) small[k] = take(&memory, 200000 + 1000 * (size_t)k);
+    for (int k = 0; k < 40; k++) pia_memory_give(&memory, small[k]);
+    pia_memory_give(&memory, large);
+    again = take(&memory, LARGE);
+    assert_ptr_equal(again, large);
+    pia_memory_give(&memory, again);
+    again = take(&memory, 200000);
+    assert_ptr_equal(again, small[0]);
+    pia_memory_give(&memory, again);
+    pia_reserve_close(&memory);
+}
+
 static void two_that_live_at_once_are_two(void **state)
 {
     (void)state;
@@ -129,9 +146,13 @@ static void no_block_has_two_owners(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(a_large_block_is_handed_to_the_next),          cmocka_unit_test(two_that_live_at_once_are_two),
-        cmocka_unit_test(a_block_of_twice_the_size_waits_for_its_like), cmocka_unit_test(more_blocks_than_are_kept_are_released),
-        cmocka_unit_test(a_context_has_one_and_a_given_allocator_none), cmocka_unit_test(no_block_has_two_owners),
+        cmocka_unit_test(a_large_block_is_handed_to_the_next),
+        cmocka_unit_test(smaller_blocks_leave_the_places_of_large_ones_alone),
+        cmocka_unit_test(two_that_live_at_once_are_two),
+        cmocka_unit_test(a_block_of_twice_the_size_waits_for_its_like),
+        cmocka_unit_test(more_blocks_than_are_kept_are_released),
+        cmocka_unit_test(a_context_has_one_and_a_given_allocator_none),
+        cmocka_unit_test(no_block_has_two_owners),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
