@@ -41,7 +41,8 @@ static pia_status load_points(pia_context *context, const pia_npy_header *header
 static pia_status load_columns(pia_context *context, const pia_input *input, const pia_npy_header *header, const char *list,
                                pia_points *out)
 {
-    pia_text_layout layout = {.delimiter = ',', .field_count = header->directions > 1 ? header->shape[header->directions - 1] : 1};
+    pia_text_layout layout = {
+        .delimiter = ',', .point = '.', .field_count = header->directions > 1 ? header->shape[header->directions - 1] : 1};
     pia_text_columns columns;
     pia_status status = pia_text_choose_columns(context, input, &layout, list, &columns);
     if (status != PIA_OK) return status;

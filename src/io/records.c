@@ -32,7 +32,7 @@ static pia_status take_points(pia_context *context, const pia_input *input, pia_
 pia_status pia_records_begin(pia_context *context, const pia_input *input, const pia_text_line *names, pia_index count,
                              const char *list, const char *otherwise, pia_index rows, pia_text_columns *columns, pia_points *out)
 {
-    pia_text_layout layout = {.delimiter = ' ', .field_count = count, .names = *names};
+    pia_text_layout layout = {.delimiter = ' ', .point = '.', .field_count = count, .names = *names};
     pia_status status = pia_text_choose_columns(context, input, &layout, list != NULL ? list : otherwise, columns);
     if (status != PIA_OK) return status;
     status = take_points(context, input, rows, columns->count, out);

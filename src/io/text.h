@@ -22,8 +22,9 @@ pia_text_line pia_text_line_at(const char *p, const char *end);
  * stands for any run of blanks and tabs. A trailing comma or semicolon is followed by one more, empty field. */
 int pia_text_next_field(const pia_text_line *line, char delimiter, const char **p, pia_text_field *out);
 
-/* The whole field as a number, also one that is not finite; 0 when it is something else. */
-int pia_text_number(const pia_text_field *field, double *value);
+/* The whole field as a number, also one that is not finite; 0 when it is something else. Exponents may be Fortran's: 1.5D+03. point:
+ * the decimal one, '.' or ','; a ',' is the only one that the number has, and '.' is no part of it then. */
+int pia_text_number(const pia_text_field *field, char point, double *value);
 
 /* Line ends: LF, CRLF, CR. */
 static inline int pia_text_is_end(char c)
@@ -46,6 +47,7 @@ static inline const char *pia_text_skip_end(const char *p, const char *end)
 /* What a table looks like. */
 typedef struct pia_text_layout {
     char delimiter;         /* ',' ';' or ' ' */
+    char point;             /* of numbers: '.' or ',' */
     const char *data;       /* the first row */
     pia_index field_count;  /* fields of a row */
     char *numeric;          /* [field_count] 1: the first rows hold numbers there */

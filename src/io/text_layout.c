@@ -7,7 +7,7 @@
 enum { SEARCHED_LINES = 1000, SAMPLED_ROWS = 100 };
 
 typedef struct line_shape {
-    char delimiter;
+    char delimiter, point;
     pia_index fields, numbers, empty;
 } line_shape;
 
@@ -18,14 +18,14 @@ static char guess_delimiter(const pia_text_line *line)
     return memchr(line->begin, ',', length) != NULL ? ',' : ' ';
 }
 
-static line_shape shape_of(const pia_text_line *line)
+static line_shape shape_with(const pia_text_line *line, char delimiter, char point)
 {
-    line_shape shape = {.delimiter = guess_delimiter(line)};
+    line_shape shape = {.delimiter = delimiter, .point = point};
     const char *p = line->begin;
     pia_text_field field;
     double value;
-    for (; pia_text_next_field(line, shape.delimiter, &p, &field); shape.fields++) {
-        shape.numbers += pia_text_number(&field, &value);
+    for (; pia_text_next_field(line, delimiter, &p, &field); shape.fields++) {
+        shape.numbers += pia_text_number(&field, point, &value);
         shape.empty += field.begin == field.end;
     }
     return shape;
@@ -34,6 +34,20 @@ static line_shape shape_of(const pia_text_line *line)
 static int holds_numbers_only(const line_shape *shape)
 {
     return shape->numbers > 0 && shape->numbers + shape->empty == shape->fields;
+}
+
+static int has(const pia_text_line *line, char c)
+{
+    return memchr(line->begin, c, (size_t)(line->end - line->begin)) != NULL;
+}
+
+/* Commas are decimal where semicolons or tabs delimit and nothing else makes numbers of all fields. */
+static line_shape shape_of(const pia_text_line *line)
+{
+    line_shape shape = shape_with(line, guess_delimiter(line), '.');
+    if (holds_numbers_only(&shape) || !has(line, ',') || !(has(line, ';') || has(line, '\t'))) return shape;
+    line_shape decimal = shape_with(line, has(line, ';') ? ';' : ' ', ',');
+    return holds_numbers_only(&decimal) ? decimal : shape;
 }
 
 static int look_alike(const line_shape *a, const line_shape *b)
@@ -50,13 +64,13 @@ static int begins_as_number(const pia_text_field *field)
 
 /* Every column that holds a number in `row` holds one in `line`, if a damaged one: it is a row as well, which must not be lost as a
  * header with a number in it. */
-static int is_like_row(const pia_text_line *line, const pia_text_line *row, char delimiter)
+static int is_like_row(const pia_text_line *line, const pia_text_line *row, const line_shape *shape)
 {
     const char *p = line->begin, *q = row->begin;
     pia_text_field field, other;
     double value;
-    while (pia_text_next_field(line, delimiter, &p, &field) && pia_text_next_field(row, delimiter, &q, &other))
-        if (pia_text_number(&other, &value) && !begins_as_number(&field)) return 0;
+    while (pia_text_next_field(line, shape->delimiter, &p, &field) && pia_text_next_field(row, shape->delimiter, &q, &other))
+        if (pia_text_number(&other, shape->point, &value) && !begins_as_number(&field)) return 0;
     return 1;
 }
 
@@ -86,7 +100,7 @@ static const char *find_first_row(const pia_input *input, line_shape *row)
     pia_text_line line, first, next;
     for (int i = 0; i < SEARCHED_LINES && next_content(p, input->end, &line); i++, p = line.next) {
         line_shape shape = shape_of(&line);
-        int continues = look_alike(&previous, &shape) && (i != 1 || is_like_row(&first, &line, shape.delimiter));
+        int continues = look_alike(&previous, &shape) && (i != 1 || is_like_row(&first, &line, &shape));
         if (i == 0) first = line;
         if (!continues) run = line.begin;
         if (holds_numbers_only(&shape) && !is_count(&shape, &line, input->end)) {
@@ -131,6 +145,19 @@ static pia_status refuse_without_rows(pia_context *context, const pia_input *inp
     return pia_input_fail(context, input, NULL, "holds no row of numbers; give at least one point a line");
 }
 
+/* Rows of whole numbers say nothing of the decimal point: the first number that has one does. */
+static char point_of(const pia_input *input, const pia_text_layout *layout)
+{
+    pia_text_line line;
+    const char *p = layout->data;
+    for (int i = 0; i < SAMPLED_ROWS && next_content(p, input->end, &line); i++, p = line.next) {
+        if (layout->delimiter == ',' || has(&line, '.') || (layout->delimiter == ' ' && !has(&line, '\t'))) return '.';
+        line_shape shape = shape_with(&line, layout->delimiter, ',');
+        if (has(&line, ',')) return shape.fields == layout->field_count && holds_numbers_only(&shape) ? ',' : '.';
+    }
+    return '.';
+}
+
 static pia_status sample_columns(pia_context *context, const pia_input *input, pia_text_layout *layout)
 {
     pia_text_line line;
@@ -140,8 +167,8 @@ static pia_status sample_columns(pia_context *context, const pia_input *input, p
         pia_text_field field;
         double value;
         for (pia_index f = 0; f < layout->field_count && pia_text_next_field(&line, layout->delimiter, &q, &field); f++)
-            if (pia_text_number(&field, &value)) layout->numeric[f] = 1;
-        pia_status status = i == 0 ? refuse_several_numbers(context, input, &line, layout->delimiter) : PIA_OK;
+            if (pia_text_number(&field, layout->point, &value)) layout->numeric[f] = 1;
+        pia_status status = i == 0 && layout->point == '.' ? refuse_several_numbers(context, input, &line, layout->delimiter) : PIA_OK;
         if (status != PIA_OK) return status;
     }
     return PIA_OK;
@@ -199,6 +226,7 @@ pia_status pia_text_find_layout(pia_context *context, const pia_input *input, pi
     if (layout.data == NULL) return refuse_without_rows(context, input);
     layout.delimiter = row.delimiter;
     layout.field_count = row.fields;
+    layout.point = row.point == ',' ? ',' : point_of(input, &layout);
     find_names(input, &layout);
     layout.numeric = pia_take_zero(context, layout.field_count, 1);
     if (layout.numeric == NULL) return pia_take_status(context, layout.field_count, 1);

@@ -60,7 +60,29 @@ int pia_text_next_field(const pia_text_line *line, char delimiter, const char **
     return 1;
 }
 
-int pia_text_number(const pia_text_field *field, double *value)
+/* A longer number is no measured one. */
+enum { LONGEST = 256 };
+
+/* The field with '.' for its decimal point and 'e' for its exponent; returns its length, 0 where it cannot be a number. */
+static size_t translate(const pia_text_field *field, char point, char *out)
 {
-    return field->begin < field->end && pia_number_parse(field->begin, field->end, value) == field->end;
+    size_t length = (size_t)(field->end - field->begin);
+    int commas = 0;
+    if (length > LONGEST) return 0;
+    for (size_t i = 0; i < length; i++) {
+        char c = field->begin[i];
+        if (point == ',' && c == '.') return 0;
+        commas += c == ',';
+        out[i] = c == point ? '.' : c == 'D' || c == 'd' ? 'e' : c;
+    }
+    return commas <= (point == ',') ? length : 0;
+}
+
+int pia_text_number(const pia_text_field *field, char point, double *value)
+{
+    char text[LONGEST];
+    if (field->begin == field->end) return 0;
+    if (point == '.' && pia_number_parse(field->begin, field->end, value) == field->end) return 1;
+    size_t length = translate(field, point, text);
+    return length > 0 && pia_number_parse(text, text + length, value) == text + length;
 }

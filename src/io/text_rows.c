@@ -52,6 +52,7 @@ static const char *read_plainly(reading *r, const char *p, double *values)
     const char *end = r->input->end;
     const pia_index last = r->layout->field_count - 1, *slot = r->columns->slot;
     const char delimiter = r->layout->delimiter;
+    if (r->layout->point != '.') return NULL;
     for (pia_index f = 0;; f++) {
         if (slot[f] < 0) {
             const char *begin = p;
@@ -98,7 +99,7 @@ static int find_problem(reading *r, const pia_text_line *line, double *values, p
         double value = 0;
         if (f == r->columns->contour) r->contour = field;
         if (r->columns->slot[f] < 0) continue;
-        int number = pia_text_number(&field, &value);
+        int number = pia_text_number(&field, r->layout->point, &value);
         if (!number || !(isfinite(value) || (isnan(value) && r->options->allow_nan > 0))) {
             out->index = f;
             out->field = field;
@@ -124,6 +125,11 @@ static pia_status refuse_row(const reading *r, const pia_text_line *line, const 
     if (why->number)
         return pia_input_fail(r->context, r->input, line->begin,
                               "field %lld is '%s', not a finite number; correct it, or skip invalid rows", field, quote);
+    if (memchr(why->field.begin, ',', (size_t)(why->field.end - why->field.begin)) != NULL || r->layout->point == ',')
+        return pia_input_fail(
+            r->context, r->input, line->begin,
+            "field %lld is '%s', not a number with decimal %s, as those before; write all with the same decimal point", field, quote,
+            r->layout->point == ',' ? "comma" : "point");
     return pia_input_fail(r->context, r->input, line->begin,
                           "field %lld is '%s', not a number; correct it, choose other columns, or skip invalid rows", field, quote);
 }

@@ -90,6 +90,21 @@ static void a_curve_with_corners_survives_every_failure(void **state)
     assert_survives_failures(fit, &p);
 }
 
+/* Far points, between which the curve gets knots of its own. */
+static void a_curve_held_between_points_survives_every_failure(void **state)
+{
+    (void)state;
+    for (int closed = 0; closed < 2; closed++) {
+        problem p = curve_problem(closed);
+        p.data.count[0] = 12;
+        for (int i = 6; i < 12; i++) p.points[2 * i] -= 20;
+        p.options.between = 3;
+        p.options.measure_distance = 0;
+        p.options.trace_every = 0;
+        assert_survives_failures(fit, &p);
+    }
+}
+
 static void a_surface_survives_every_failure(void **state)
 {
     (void)state;
@@ -133,7 +148,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_curve_survives_every_failure),    cmocka_unit_test(a_curve_with_corners_survives_every_failure),
         cmocka_unit_test(constraints_survive_every_failure), cmocka_unit_test(a_surface_survives_every_failure),
-        cmocka_unit_test(a_cloud_survives_every_failure),
+        cmocka_unit_test(a_cloud_survives_every_failure),    cmocka_unit_test(a_curve_held_between_points_survives_every_failure),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -162,6 +162,25 @@ static void names_may_stand_in_a_comment(void **state)
     pia_points_destroy(points);
 }
 
+/* The same points as Fortran, spreadsheets of half of Europe, and everybody else write them. */
+static void exponents_of_fortran_and_decimal_commas_are_read(void **state)
+{
+    static const char *const texts[] = {
+        "0 12\n1500 -0.025\n2.5e-300 1\n",      "0D0 1.2D+01\n1.5d3 -2.5D-02\n0.25D-299 1.D0\n", "0;12\n1500;-0,025\n2,5e-300;1\n",
+        "0\t12\n1500\t-0,025\n2,5D-300\t1,0\n", "x;y\n0,0; 12,0\n1500;\"-0,025\"\n2,5E-300;1\n",
+    };
+    static const double expected[] = {0, 12, 1500, -0.025, 2.5e-300, 1};
+    for (size_t k = 0; k < sizeof texts / sizeof *texts; k++) {
+        pia_points_info info;
+        make_text("numbers.csv", texts[k]);
+        pia_points *points = read_points(*state, "numbers.csv", NULL, &info);
+        assert_int_equal(info.count[0], 3);
+        assert_int_equal(info.dim, 2);
+        for (int i = 0; i < 6; i++) assert_near(info.points[i], expected[i], 0);
+        pia_points_destroy(points);
+    }
+}
+
 static void bad_rows_are_refused_with_their_line(void **state)
 {
     static const struct {
@@ -183,8 +202,13 @@ static void bad_rows_are_refused_with_their_line(void **state)
         {"1,2\n3,nan\n", "bad.csv:2: field 2 is 'nan', not a finite number"},
         {"1,2\r-inf,4\r", "bad.csv:2: field 1 is '-inf', not a finite number"},
         {"1,2\n3,1e999\n", "bad.csv:2: field 2 is '1e999', not a finite number"},
-        {"0,5\t1,5\n2,5\t3,5\n", "bad.csv:1: field 2 holds several numbers, '5?1'; use one delimiter"},
-        {"0,5;1,5\n2,5;3,5\n", "bad.csv:1: field 1 holds several numbers, '0,5'; use one delimiter in all rows, and '.'"},
+        {"0,5 1,5\n2,5 3,5\n", "bad.csv:1: field 2 holds several numbers, '5 1'; use one delimiter"},
+        {"0.5;1,5\n2.5;3,5\n", "bad.csv:1: field 2 holds several numbers, '1,5'; use one delimiter in all rows, and '.'"},
+        {"1.000,5;1\n", "bad.csv:1: field 1 holds several numbers"},
+        {"0,5;1,5\n1,234,5;3\n", "bad.csv:2: field 1 is '1,234,5', not a number with decimal comma"},
+        {"0,5;1,5\n2.5;3,5\n", "bad.csv:2: field 1 is '2.5', not a number with decimal comma, as those before"},
+        {"0.5;1\n2,5;3\n", "bad.csv:2: field 1 is '2,5', not a number with decimal point, as those before"},
+        {"1,2\n1.5D+0x,2\n", "bad.csv:2: field 1 is '1.5D+0x', not a number"},
         {"\xff\xfe"
          "1\0,\0",
          "UTF-16"},
@@ -414,6 +438,7 @@ int main(void)
         IN_FOLDER(a_matrix_of_heights_has_no_contours),
         IN_FOLDER(columns_are_chosen_by_name_or_number),
         IN_FOLDER(names_may_stand_in_a_comment),
+        IN_FOLDER(exponents_of_fortran_and_decimal_commas_are_read),
         IN_FOLDER(bad_rows_are_refused_with_their_line),
         IN_FOLDER(bad_rows_are_skipped_and_counted_on_request),
         IN_FOLDER(holes_are_kept_on_request),
