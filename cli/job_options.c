@@ -19,6 +19,7 @@ enum {
     KEY_TOLERANCE,
     KEY_POINT_TOLERANCE,
     KEY_MEASURE,
+    KEY_BETWEEN,
     KEY_CORRECT,
     KEY_WEIGHTS,
     KEY_ROBUST,
@@ -158,6 +159,8 @@ static const struct argp_option goal_options[] = {
     {"point-tolerance", KEY_POINT_TOLERANCE, "FILE", 0,
      "a tolerance for each point, one a row, in place of T; a point keeps those of the axes as well", 0},
     {"measure", KEY_MEASURE, "parametric|distance", 0, "what the tolerance measures: deviation at the parameters, or true distance", 0},
+    {"between", KEY_BETWEEN, "F", 0,
+     "how far from the straight line between far points, in tolerances, beside what their bend explains; 0: no matter", 0},
     {"correct", KEY_CORRECT, "N", 0, "rounds of foot-point correction of the parameters", 0},
     {"weights", KEY_WEIGHTS, "COLUMN|FILE", 0, "a weight for each point: a column of the points or a file, one a row", 0},
     {"robust", KEY_ROBUST, "huber|tukey[:K]", 0, "robust loss, so that outliers pull less", 0},
@@ -218,6 +221,7 @@ static error_t parse_goal(int key, char *arg, struct argp_state *state)
     case KEY_TOLERANCE: return parse_tolerance(request, arg);
     case KEY_POINT_TOLERANCE: request->tolerances = arg; return 0;
     case KEY_MEASURE: return parse_measure(request, arg);
+    case KEY_BETWEEN: return option_number("--between", arg, 0, &request->options.between);
     case KEY_CORRECT: return option_count("--correct", arg, 0, &request->options.correct);
     case KEY_WEIGHTS: request->weights = arg; return 0;
     case KEY_ROBUST: return parse_robust(request, arg);

@@ -265,6 +265,9 @@ typedef struct pia_fit_options {
     int (*progress)(void *user,
                     const pia_report *so_far); /* called at least once an iteration or round; non-zero stops and keeps the model */
     void *user;
+    double between; /* a curve whose knots are found for a tolerance stays within so many tolerances, and what the bend of the points
+                       explains, of the straight line between neighbouring points that are far apart, where more control points can
+                       do that, 3 for instance; 0, the default: no matter */
 } pia_fit_options;
 
 /* The defaults named at the members; zero, NULL or PIA_AUTO where none is named, as their comments say. */

@@ -46,6 +46,7 @@ class FitOptions(TypedDict, total=False):
     fairing: float | None
     robust: Literal["huber", "tukey"] | None
     robust_scale: float | None
+    between: float | None
     correct: int | None
     corners: Iterable[int] | Literal["auto"] | None
     max_iterations: int | None

@@ -180,10 +180,10 @@ static void rules(walk *w, pia_fit *fit)
     pia_rules *r = &fit->solve.rules;
     pia_index counts[5] = {r->iterations, r->trace_every, fit->options.measure_distance, fit->options.correct,
                            fit->options.max_iterations};
-    double v[8] = {r->tolerance,           r->change,         r->gradient,          r->time_limit,
-                   fit->options.tolerance, fit->options.soft, fit->options.fairing, fit->seconds};
+    double v[9] = {r->tolerance,         r->change,    r->gradient,         r->time_limit, fit->options.tolerance, fit->options.soft,
+                   fit->options.fairing, fit->seconds, fit->options.between};
     array(w, "rule_counts", PIA_SECTION_INDEX, counts, 5);
-    array(w, "rules", PIA_SECTION_DOUBLE, v, 8);
+    array(w, "rules", PIA_SECTION_DOUBLE, v, 9);
     array(w, "method_numbers", PIA_SECTION_DOUBLE, fit->method_values.number, PIA_MAX_VALUES);
     array(w, "limiter_numbers", PIA_SECTION_DOUBLE, fit->limiter_values.number, PIA_MAX_VALUES);
     pia_index words[2 * PIA_MAX_VALUES];
@@ -203,6 +203,7 @@ static void rules(walk *w, pia_fit *fit)
     fit->options.soft = v[5];
     fit->options.fairing = v[6];
     fit->seconds = v[7];
+    fit->options.between = v[8];
     for (int i = 0; i < PIA_MAX_VALUES; i++) {
         fit->method_values.is_word[i] = (int)words[i];
         fit->limiter_values.is_word[i] = (int)words[PIA_MAX_VALUES + i];

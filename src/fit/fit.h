@@ -127,8 +127,7 @@ struct pia_fit {
     double began;           /* of a refinement: when it would have begun if it had not been interrupted */
     double *all_parameters; /* of a grid, u then v, once asked for; NULL before */
     double seconds;         /* spent in opening */
-    double between_error;   /* of a curve between its rows, see pia_report; and the row that the gap begins with */
-    pia_index between_row;
+    double between_error;   /* of a curve between its rows, see pia_report */
 };
 
 /* Whether numbers and counts of the options are in their ranges. */
@@ -146,6 +145,12 @@ int pia_fit_is_tolerance_alike(const pia_fit *fit);
 int pia_fit_keeps_tolerances(pia_iterate *iterate);
 /* The largest deviation of each component [dim], from the residuals; returns the one that takes most of its tolerance. */
 int pia_fit_axis_errors(const pia_fit *fit, double *out);
+/* How far a curve may be from the straight line in the gap behind a row: `factor` tolerances, and what the bend of the points explains.
+ */
+double pia_fit_swing(const pia_fit *fit, pia_index row, double factor);
+/* How far it is, of full control points, *span being one at or before the row, which it then is; -1 where the gap is narrow beside the
+ * span. */
+double pia_fit_excursion(const pia_fit *fit, const double *full, pia_index row, pia_index *span);
 /* Measures a refined curve between its rows, and notes where it is far off. */
 void pia_fit_look_between(pia_fit *fit);
 /* Notes the axes that do not keep their tolerance. */

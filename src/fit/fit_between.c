@@ -2,96 +2,161 @@
  * where points are far apart beside the curve's own spans it may swing out. Looked at where a gap takes a good part of a span. */
 #include "fit.h"
 
-#include "model.h"
+#include "basis.h"
+#include "draft.h"
+#include "knots.h"
 
 #include <math.h>
+#include <string.h>
 
-/* Places looked at in a gap; parts of a span that a gap has to be longer than; how many times the tolerance is worth a note. */
-enum { PLACES = 3, PARTS = 16, WORTH = 3 };
+/* Parts of a span that a gap has to be longer than; how many times the tolerance is worth a note. */
+enum { PARTS = 16, WORTH = 3 };
 
-typedef struct gaps {
-    pia_index *row; /* [count] rows that the gaps begin with */
-    double *at;     /* [count x PLACES] parameters */
-    pia_index count;
-} gaps;
+/* A gap that is longer than so many of the longer one beside it bends as if it were shorter: what the points there say of their bend,
+ * they say of a piece of their own length. */
+static const double FAR = 4;
+
+/* A change of direction by so much of the speed is a corner and says nothing of a bend: 89 degrees. */
+static const double CORNER = 1.4;
 
 static double after(const pia_fit *fit, pia_index row)
 {
     return row + 1 < fit->rows ? fit->parameter[0][row + 1] : fit->parameter[0][0] + 1;
 }
 
-/* Gaps that are wide beside the span they begin in. */
-static pia_status find_gaps(pia_fit *fit, gaps *g)
+/* Row numbers of a closed curve go round. Returns 0 where there is no such row. */
+static int is_row(const pia_fit *fit, pia_index *row)
 {
-    pia_index last = fit->closed[0] ? fit->rows : fit->rows - 1, span = fit->degree[0];
-    double high = fit->knots[0][fit->full[0]];
-    *g = (gaps){.row = pia_take(fit->context, fit->rows, sizeof *g->row),
-                .at = pia_take(fit->context, PLACES * fit->rows, sizeof *g->at)};
-    if (g->row == NULL || g->at == NULL) return PIA_E_MEMORY;
-    for (pia_index row = 0; row < last; row++) {
-        double from = fit->parameter[0][row], width = after(fit, row) - from;
-        span = pia_collocation_advance(&fit->line[0], row, span);
-        if (!(PARTS * width > fit->knots[0][span + 1] - fit->knots[0][span])) continue;
-        for (int k = 0; k < PLACES; k++) {
-            double t = from + width * (k + 1) / (PLACES + 1);
-            g->at[PLACES * g->count + k] = t > high ? t - 1 : t;
+    if (fit->closed[0]) *row = (*row % fit->rows + fit->rows) % fit->rows;
+    return *row >= 0 && *row < fit->rows;
+}
+
+/* Width of the gap behind a row; 0 where there is none. */
+static double width_of(const pia_fit *fit, pia_index row)
+{
+    if (!is_row(fit, &row) || (!fit->closed[0] && row + 1 == fit->rows)) return 0;
+    return after(fit, row) - fit->parameter[0][row];
+}
+
+/* How fast the direction of the polygon of the points turns at a row: the change of its velocity over the parameter; -1: unknown. */
+static double turn_at(const pia_fit *fit, pia_index row)
+{
+    double square = 0, before = width_of(fit, row - 1), behind = width_of(fit, row);
+    pia_index last = row - 1, next = row + 1;
+    if (!(before > 0) || !(behind > 0)) return -1;
+    if (!is_row(fit, &row) || !is_row(fit, &last) || !is_row(fit, &next)) return -1;
+    const double *a = fit->points + last * fit->dim, *b = fit->points + row * fit->dim, *c = fit->points + next * fit->dim;
+    double speed[2] = {0, 0};
+    for (int d = 0; d < fit->dim; d++) {
+        double in = (b[d] - a[d]) / before, out = (c[d] - b[d]) / behind;
+        square += (out - in) * (out - in);
+        speed[0] += in * in;
+        speed[1] += out * out;
+    }
+    if (!fit->function_graph && square > CORNER * CORNER * fmax(speed[0], speed[1])) return 0;
+    return 2 * sqrt(square) / (before + behind);
+}
+
+/* Twice the height of the arc that the points around the gap speak of. The second smallest of their turns: one that is alone is a
+ * corner, and at an inflection one may vanish. */
+static double bend_of(const pia_fit *fit, pia_index row)
+{
+    double turn[4], width = width_of(fit, row), beside = fmax(width_of(fit, row - 1), width_of(fit, row + 1));
+    int count = 0;
+    for (int k = -1; k <= 2; k++) {
+        double value = turn_at(fit, row + k);
+        int at = count;
+        if (value < 0) continue;
+        for (; at > 0 && turn[at - 1] > value; at--) turn[at] = turn[at - 1];
+        turn[at] = value;
+        count++;
+    }
+    return count == 0 ? 0 : turn[count > 2] * width * fmin(width, FAR * beside) / 4;
+}
+
+static double allowed_at(const pia_fit *fit, pia_index row)
+{
+    if (fit->weights != NULL && fit->weights[row] == 0) return INFINITY;
+    return fit->tolerances != NULL ? fit->tolerances[row] : fit->options.tolerance;
+}
+
+double pia_fit_swing(const pia_fit *fit, pia_index row, double factor)
+{
+    pia_index next = row + 1;
+    if (!is_row(fit, &next)) return INFINITY;
+    return factor * fmin(allowed_at(fit, row), allowed_at(fit, next)) + bend_of(fit, row);
+}
+
+/* The farthest of the places within one span, from low to high of the parameter of the rows. */
+static double farthest_in(const pia_fit *fit, const double *full, pia_index span, double low, double high, double shift,
+                          const double *a, const double *b)
+{
+    double basis[PIA_MAX_DEGREE + 1], value[PIA_MAX_DIM], worst = 0;
+    int p = fit->degree[0], dim = fit->dim;
+    for (int k = 1; k <= PIA_DRAFT_PLACES; k++) {
+        pia_basis_values(fit->knots[0], p, span, low + (high - low) * k / (PIA_DRAFT_PLACES + 1) - shift, basis);
+        for (int d = 0; d < dim; d++) {
+            value[d] = fit->origin[d];
+            for (int i = 0; i <= p; i++) value[d] += basis[i] * full[(span - p + i) * dim + d];
         }
-        g->row[g->count++] = row;
+        worst = fmax(worst, pia_draft_distance(value, a, b, dim));
     }
-    return PIA_OK;
+    return worst;
 }
 
-static double distance_to_segment(const double *x, const double *a, const double *b, int dim)
+static double farthest(const pia_fit *fit, const double *full, pia_index row, pia_index span)
 {
-    double along = 0, length = 0, square = 0;
-    for (int d = 0; d < dim; d++) {
-        along += (x[d] - a[d]) * (b[d] - a[d]);
-        length += (b[d] - a[d]) * (b[d] - a[d]);
+    const double *knots = fit->knots[0];
+    pia_index next = row + 1 < fit->rows ? row + 1 : 0, count = fit->full[0];
+    double from = fit->parameter[0][row], to = after(fit, row), worst = 0;
+    for (double low = from, high; low < to; low = high) {
+        double shift = fit->closed[0] && low >= knots[count] ? 1 : 0;
+        span = pia_knots_span_near(knots, fit->degree[0], count, low - shift, span);
+        while (span + 1 < count && !(knots[span + 1] + shift > low)) span++;
+        high = span + 1 < count || fit->closed[0] ? fmin(to, knots[span + 1] + shift) : to;
+        if (!(high > low)) break;
+        worst =
+            fmax(worst, farthest_in(fit, full, span, low, high, shift, fit->points + row * fit->dim, fit->points + next * fit->dim));
     }
-    double share = length > 0 ? fmin(fmax(along / length, 0), 1) : 0;
-    for (int d = 0; d < dim; d++) square += pow(x[d] - a[d] - share * (b[d] - a[d]), 2);
-    return sqrt(square);
+    return worst;
 }
 
-static pia_status look(pia_fit *fit, const gaps *g)
+double pia_fit_excursion(const pia_fit *fit, const double *full, pia_index row, pia_index *span)
 {
-    int dim = fit->dim, wide = dim + fit->function_graph; /* the model of a graph has the abscissa, too */
-    pia_model *model = NULL;
-    double *value = pia_take(fit->context, PLACES * g->count * wide, sizeof *value);
-    pia_status status = value != NULL ? pia_fit_bare_model(fit, &model) : PIA_E_MEMORY;
-    if (status == PIA_OK) status = pia_model_eval(fit->context, model, g->at, PLACES * g->count, 0, value);
-    for (pia_index k = 0; k < PLACES * g->count && status == PIA_OK; k++) {
-        pia_index row = g->row[k / PLACES], next = row + 1 < fit->rows ? row + 1 : 0;
-        const double *at = value + k * wide + fit->function_graph;
-        double distance = distance_to_segment(at, fit->points + row * dim, fit->points + next * dim, dim);
-        if (distance <= fit->between_error) continue;
-        fit->between_error = distance;
-        fit->between_row = row;
-    }
-    pia_model_destroy(model);
-    pia_give(fit->context, value);
-    return status;
+    const double *knots = fit->knots[0];
+    *span = pia_collocation_advance(&fit->line[0], row, *span);
+    double width = width_of(fit, row);
+    return PARTS * width > knots[*span + 1] - knots[*span] && width > 0 ? farthest(fit, full, row, *span) : -1;
+}
+
+/* Of those that swing out more than the bend of their points explains, the gap that does so most. */
+static void note(pia_fit *fit, pia_index gap, double excursion)
+{
+    pia_index row = fit->row != NULL ? fit->row[gap] : gap;
+    pia_note_add(
+        pia_memory_of(fit->context), &fit->outcome,
+        "between the points, behind row %lld, the curve is up to %g away from the straight line, %.3g times the tolerance, which "
+        "holds at the points; the option between, more points there, corners or a lower degree keep it closer",
+        (long long)row, excursion, excursion / fit->options.tolerance);
 }
 
 void pia_fit_look_between(pia_fit *fit)
 {
-    gaps g;
+    pia_index span = fit->degree[0], gap = -1;
+    double most = 0, excursion = 0;
     fit->between_error = NAN;
-    fit->between_row = -1;
     if (!fit->refining || fit->directions != 1) return;
-    pia_status status = find_gaps(fit, &g);
-    if (status == PIA_OK) {
-        fit->between_error = 0;
-        status = g.count > 0 ? look(fit, &g) : PIA_OK;
+    const double *full = pia_op_full(fit->op, fit->iterate.points, fit->dim);
+    fit->between_error = 0;
+    for (pia_index row = 0; row < fit->rows; row++) {
+        double far = pia_fit_excursion(fit, full, row, &span);
+        fit->between_error = fmax(fit->between_error, far);
+        if (!(far > WORTH * fit->options.tolerance)) continue;
+        double beyond = far - pia_fit_swing(fit, row, WORTH);
+        if (!(beyond > most)) continue;
+        most = beyond;
+        gap = row;
+        excursion = far;
     }
-    if (status != PIA_OK) fit->between_error = NAN;
-    pia_give(fit->context, g.row);
-    pia_give(fit->context, g.at);
-    if (!(fit->between_error > WORTH * fit->options.tolerance)) return;
-    pia_index row = fit->row != NULL ? fit->row[fit->between_row] : fit->between_row;
-    pia_note_add(
-        pia_memory_of(fit->context), &fit->outcome,
-        "between the points, behind row %lld, the curve is up to %g away from the straight line, %.3g times the tolerance, which "
-        "holds at the points; more points there, corners or a lower degree keep it closer",
-        (long long)row, fit->between_error, fit->between_error / fit->options.tolerance);
+    if (gap >= 0) note(fit, gap, excursion);
 }

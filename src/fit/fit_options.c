@@ -39,6 +39,9 @@ static const pia_option table[] = {
     {AT(robust, NAME), .values = "huber|tukey", .sentence = "robust loss, so that outliers pull less; left out: none"},
     {AT(robust_scale, NUMBER), .automatic = 1, RANGE(DBL_MIN, DBL_MAX), .initial = PIA_AUTO,
      .sentence = "tuning constant of the robust loss; left out: 1.345 for huber, 4.685 for tukey"},
+    {AT(between, NUMBER), RANGE(0, DBL_MAX), .initial = 0,
+     .sentence = "how far a curve found for a tolerance may be from the straight line between far points, in tolerances, beside what "
+                 "their bend explains; 0: no matter"},
     {AT(correct, COUNT), RANGE(0, INFINITY), .sentence = "rounds of foot-point correction of the parameters; 0: none"},
     {AT(corners, INDICES), COUNTED(corner_count), .automatic = 1, .sentence = "data rows that are corners of the curve; auto: found"},
     {AT(max_iterations, COUNT), .automatic = 1, RANGE(0, INFINITY), .initial = PIA_AUTO,

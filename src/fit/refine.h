@@ -31,6 +31,16 @@ pia_status pia_refine_interpolate(pia_fit *fit);
 pia_status pia_refine_relax(pia_fit *fit);
 /* Takes knots of a curve away as long as no row deviates more than it may, whatever that does to the other rows. */
 pia_status pia_refine_spare(pia_fit *fit, pia_index *spared);
+/* Gaps between rows where a curve is to be held near the straight line: *wanted [rows], how far it may be from there, INFINITY where a
+ * gap is narrow beside its span; and swing of the data, that or how far it is now where that is more. All NULL where there are none.
+ * Errors: PIA_E_MEMORY. Then their end. */
+pia_status pia_refine_find_gaps(const pia_fit *fit, pia_draft_data *data, double **wanted);
+void pia_refine_drop_gaps(const pia_fit *fit, pia_draft_data *data, double **wanted);
+/* Adds knots in gaps of a draft whose data->swing is more than wanted [rows], which then becomes what is wanted, where that succeeds
+ * and the draft has room. Returns how many. */
+pia_index pia_refine_hold(pia_draft *draft, const double *wanted);
+/* How far control points move for that. */
+enum { PIA_HOLD_REACH = 3 };
 /* The same for knot lines of any fit, the whole of which is fitted anew each time: by least squares, which weights and fairing enter.
  */
 pia_status pia_refine_spare_lines(pia_fit *fit, pia_index *spared);

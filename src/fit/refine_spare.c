@@ -10,7 +10,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { REACH = 2, LAWSON_ROUNDS = 6, MAX_SWEEPS = 40, MAX_PASSES = 12, SEGMENT = 96, BATCH = 16 };
+enum { REACH = 2, LAWSON_ROUNDS = 6, MAX_SWEEPS = 40, MAX_PASSES = 12, HOLD_PASSES = 4, SEGMENT = 96, BATCH = 16 };
 
 typedef struct candidate {
     double cost, knot;
@@ -78,6 +78,8 @@ typedef struct pass {
     unsigned char *critical; /* [rows] as in a draft; segments see different rows */
     pia_draft_condition *condition;
     double *condition_values;
+    double *wanted;            /* [rows] see pia_refine_find_gaps */
+    int hold;                  /* 1: this pass adds knots where the curve swings out, else it takes knots away */
     pia_index segments, batch; /* segments of this pass; the first of those at work */
     pia_index offset;          /* closed: control point at which the first segment begins */
     pia_draft *draft;          /* [segments] */
@@ -108,6 +110,12 @@ static double knot_of(const pass *s, pia_index i)
     return s->knots[i - period * n] + (double)period;
 }
 
+/* Control points that a segment has room for beside those it has. */
+static pia_index extra(const pass *s)
+{
+    return s->hold ? 2 * SEGMENT : 0;
+}
+
 /* Copies of the segments, one behind the other in store: knots, control points, marks. */
 static void cut_out(pass *s, int shifted, double *store, unsigned char *marks)
 {
@@ -115,15 +123,15 @@ static void cut_out(pass *s, int shifted, double *store, unsigned char *marks)
     for (pia_index k = 0; k < s->segments; k++) {
         pia_index begin = cut(s, k, shifted), count = cut(s, k + 1, shifted) - begin, knots = count + (is_cyclic(s) ? 0 : p + 1);
         pia_draft *d = &s->draft[k];
-        *d = (pia_draft){.data = &s->data, .degree = p, .dim = dim, .cyclic = is_cyclic(s), .count = count};
+        *d = (pia_draft){.data = &s->data, .degree = p, .dim = dim, .cyclic = is_cyclic(s), .count = count, .room = count + extra(s)};
         d->stays[0] = s->closed || k > 0 ? p : s->pinned;
         d->stays[1] = s->closed || k + 1 < s->segments ? p : s->pinned;
         d->knots = store;
-        d->control = store + knots;
+        d->control = store + knots + extra(s);
         d->mark = marks;
         d->critical = s->critical;
-        store += knots + count * dim;
-        marks += knots;
+        store += knots + count * dim + extra(s) * (dim + 1);
+        marks += knots + extra(s);
         for (pia_index i = 0; i < knots; i++) d->knots[i] = knot_of(s, s->offset + begin + i);
         for (pia_index i = 0; i < knots; i++) d->mark[i] = s->mark[s->closed ? (s->offset + begin + i) % s->count : begin + i];
         for (pia_index i = 0; i < count; i++) {
@@ -133,7 +141,23 @@ static void cut_out(pass *s, int shifted, double *store, unsigned char *marks)
     }
 }
 
-/* The curve from its segments. Returns how many knots went. */
+/* Room for as many control points as the segments have. */
+static pia_status make_room(pia_context *context, pass *s)
+{
+    pia_index count = 0, knots;
+    for (pia_index k = 0; k < s->segments; k++) count += s->draft[k].count;
+    if (count <= s->count) return PIA_OK;
+    knots = count + s->degree + 1;
+    pia_give(context, s->knots);
+    pia_give(context, s->control);
+    pia_give(context, s->mark);
+    s->knots = pia_take(context, knots, sizeof(double));
+    s->control = pia_take(context, count * s->dim, sizeof(double));
+    s->mark = pia_take(context, knots, 1);
+    return s->knots != NULL && s->control != NULL && s->mark != NULL ? PIA_OK : PIA_E_MEMORY;
+}
+
+/* The curve from its segments. Returns by how many control points it changed. */
 static pia_index put_back(pass *s)
 {
     pia_index before = s->count, n = 0;
@@ -149,7 +173,15 @@ static pia_index put_back(pass *s)
     s->count = n;
     double base = s->closed ? floor(s->knots[0]) : 0;
     for (pia_index i = 0; i < n && base != 0; i++) s->knots[i] -= base;
-    return before - n;
+    return before > n ? before - n : n - before;
+}
+
+static void hold_segment(void *work, pia_index chunk)
+{
+    pass *s = work;
+    pia_draft *draft = &s->draft[s->batch + chunk];
+    draft->work = s->work + chunk * s->room;
+    pia_refine_hold(draft, s->wanted);
 }
 
 static void thin_out(void *work, pia_index chunk)
@@ -166,28 +198,31 @@ static void thin_out(void *work, pia_index chunk)
     }
 }
 
-/* One pass; *spared knots went. */
-static pia_status run_pass(pia_fit *fit, pass *s, int shifted, pia_index *spared)
+/* One pass; *changed knots went, or came. */
+static pia_status run_pass(pia_fit *fit, pass *s, int shifted, pia_index *changed)
 {
     pia_context *context = fit->context;
     pia_index whole = s->count / SEGMENT;
     s->segments = whole > 1 ? whole + (shifted && !s->closed) : 1;
     s->offset = s->closed && shifted && !is_cyclic(s) ? s->count / (2 * s->segments) : 0;
-    pia_index knots = s->count + s->segments * (s->degree + 1), values = knots + s->count * s->dim;
+    pia_index knots = s->count + s->segments * (s->degree + 1 + extra(s));
+    pia_index values = knots + (s->count + s->segments * extra(s)) * s->dim;
     s->draft = pia_take(context, s->segments, sizeof *s->draft);
     s->order = pia_take(context, knots, sizeof *s->order);
     s->work = pia_take(context, BATCH * s->room, sizeof *s->work);
     double *store = pia_take(context, values, sizeof *store);
     unsigned char *marks = pia_take(context, knots, 1);
-    *spared = 0;
+    *changed = 0;
     pia_status status =
         s->draft != NULL && s->order != NULL && s->work != NULL && store != NULL && marks != NULL ? PIA_OK : PIA_E_MEMORY;
     if (status == PIA_OK) {
         cut_out(s, shifted, store, marks);
         for (s->batch = 0; s->batch < s->segments && !pia_refine_stopped(fit); s->batch += BATCH)
-            pia_for_each(context, s->segments - s->batch < BATCH ? s->segments - s->batch : BATCH, thin_out, s);
-        *spared = put_back(s);
+            pia_for_each(context, s->segments - s->batch < BATCH ? s->segments - s->batch : BATCH, s->hold ? hold_segment : thin_out,
+                         s);
+        status = make_room(context, s);
     }
+    if (status == PIA_OK) *changed = put_back(s);
     pia_give(context, s->draft);
     pia_give(context, s->order);
     pia_give(context, s->work);
@@ -211,13 +246,14 @@ static pia_status open_pass(pia_fit *fit, pass *s)
                                .periodic = fit->closed[0]};
     if (fit->axis_tolerances != NULL) s->data.inverse_axis = s->inverse_axis;
     for (int d = 0; fit->axis_tolerances != NULL && d < fit->dim; d++) s->inverse_axis[d] = 1 / fit->axis_tolerances[d];
-    s->room = pia_draft_room(s->degree, s->dim, REACH);
+    s->room = pia_draft_room(s->degree, s->dim, PIA_HOLD_REACH);
     s->knots = pia_take(context, knots, sizeof(double));
     s->control = pia_take(context, count * s->dim, sizeof(double));
     s->mark = pia_take_zero(context, knots, 1);
     s->critical = pia_take_zero(context, fit->rows, 1);
     if (s->knots == NULL || s->control == NULL || s->mark == NULL || s->critical == NULL) return PIA_E_MEMORY;
     pia_status status = pia_refine_conditions(fit, &s->condition, &s->data.condition_count, &s->condition_values);
+    if (status == PIA_OK) status = pia_refine_find_gaps(fit, &s->data, &s->wanted);
     if (status != PIA_OK) return status;
     s->data.condition = s->condition;
     memcpy(s->knots, fit->knots[0], (size_t)knots * sizeof(double));
@@ -227,12 +263,36 @@ static pia_status open_pass(pia_fit *fit, pass *s)
     return PIA_OK;
 }
 
+static int swings_out(const pia_fit *fit, const pass *s)
+{
+    for (pia_index row = 0; row < fit->rows && s->wanted != NULL; row++)
+        if (s->data.swing[row] > s->wanted[row]) return 1;
+    return 0;
+}
+
+/* Passes that hold the curve between rows. */
+static pia_status hold(pia_fit *fit, pass *s, pia_index *added)
+{
+    pia_index idle = 0, changed;
+    pia_status status = PIA_OK;
+    s->hold = 1;
+    *added = 0;
+    for (int k = 0; k < HOLD_PASSES && idle < 2 && status == PIA_OK && swings_out(fit, s) && !pia_refine_stopped(fit); k++) {
+        status = run_pass(fit, s, k % 2, &changed);
+        *added += changed;
+        idle = changed > 0 ? 0 : idle + 1;
+    }
+    s->hold = 0;
+    return status;
+}
+
 pia_status pia_refine_spare(pia_fit *fit, pia_index *spared)
 {
     pass s;
     pia_index taken = 1, idle = 0;
     *spared = 0;
     pia_status status = open_pass(fit, &s);
+    if (status == PIA_OK) status = hold(fit, &s, spared);
     for (int k = 0; k < MAX_PASSES && idle < 2 && status == PIA_OK && !pia_refine_stopped(fit); k++) {
         status = run_pass(fit, &s, k % 2, &taken);
         *spared += taken;
@@ -245,6 +305,7 @@ pia_status pia_refine_spare(pia_fit *fit, pia_index *spared)
         if (status == PIA_OK && fit->iterate.constraints != NULL) pia_constraints_finish(fit->iterate.constraints, fit->iterate.points);
         if (status == PIA_OK) pia_iterate_measure(&fit->iterate);
     }
+    pia_refine_drop_gaps(fit, &s.data, &s.wanted);
     pia_give(fit->context, s.condition);
     pia_give(fit->context, s.condition_values);
     pia_give(fit->context, s.knots);

@@ -54,6 +54,17 @@ double pia_draft_row(const pia_draft_data *data, pia_index row, pia_index *at)
     return data->parameters[*at] + (double)periods;
 }
 
+/* The ends of the curve's own chord are as far from those of the straight line as the rows may be. */
+void pia_draft_let_swing(const pia_draft_data *data, pia_index at, double swing)
+{
+    pia_index next = at + 1 < data->rows ? at + 1 : 0;
+    const double *inverse = data->inverse_tolerance;
+    double width = data->parameters[next] - data->parameters[at] + (next == 0);
+    double ends = 1 / (inverse != NULL ? fmin(inverse[at], inverse[next]) : data->inverse_one);
+    data->swing[at] = swing;
+    data->stand[at] = 8 * (swing - ends) / (width * width);
+}
+
 pia_index pia_draft_lower_row(const pia_draft_data *data, double t)
 {
     pia_index low = 0, high = data->rows, shift = 0;
@@ -91,8 +102,10 @@ static void cut_piece(const pia_draft *draft, pia_index first, int removed, cons
     w->first = (int)(low - base);
     w->free = (int)(high - low) + 1 - fewer;
     int same = before - (p + 1) / 2; /* control points before this one keep their number */
-    memcpy(w->point, draft->control + base * dim, (size_t)(same * dim) * sizeof(double));
-    memcpy(w->point + same * dim, draft->control + (base + same + fewer) * dim, (size_t)((w->count - same) * dim) * sizeof(double));
+    for (int i = 0; i < w->count; i++) {
+        int old = i < same ? i : i + fewer < same - 1 ? same - 1 : i + fewer;
+        memcpy(w->point + i * dim, draft->control + (base + old) * dim, (size_t)dim * sizeof(double));
+    }
 }
 
 /* A short closed curve is its own window: one period and the wrapped control points, which share their unknowns. */
@@ -118,12 +131,13 @@ static void put_piece(pia_draft *draft, pia_index first, int removed, const doub
     int p = draft->degree, fewer = removed - inserted, dim = draft->dim;
     pia_index knots = draft->count + p + 1, near = w->count;
     size_t tail = (size_t)(knots - first - removed);
-    for (int i = 0; i < inserted; i++) draft->knots[first + i] = added[i];
     memmove(draft->knots + first + inserted, draft->knots + first + removed, tail * sizeof(double));
     memmove(draft->mark + first + inserted, draft->mark + first + removed, tail);
+    for (int i = 0; i < inserted; i++) draft->knots[first + i] = added[i];
+    for (int i = 0; i < inserted; i++) draft->mark[first + i] = 0;
     pia_index from = first > near ? first - near : 0, to = first + near < knots - fewer ? first + near : knots - fewer;
     for (pia_index j = from; j < to; j++) draft->mark[j] &= PIA_DRAFT_KEPT;
-    pia_index gone = first > p ? first - p : 0;
+    pia_index gone = (first > p ? first - p : 0) + (fewer < 0 ? -fewer : 0);
     memmove(draft->control + gone * dim, draft->control + (gone + fewer) * dim,
             (size_t)((draft->count - gone - fewer) * dim) * sizeof(double));
     draft->count -= fewer;
@@ -155,22 +169,37 @@ static void find_rows(const pia_draft *draft, pia_window *w)
     w->rows = (w->has_end ? draft->data->rows : pia_draft_lower_row(draft->data, w->end)) - w->row;
 }
 
-int pia_draft_replace(pia_draft *draft, pia_index first, int removed, const double *added, int inserted, int reach, int rounds)
+/* row, gaps: gaps all of whose places take part. */
+static int replace(pia_draft *draft, pia_index row, int gaps, pia_index first, int removed, const double *added, int inserted,
+                   int reach, int rounds)
 {
     pia_window w;
-    int p = draft->degree;
+    int p = draft->degree, more = inserted > removed ? inserted : removed;
     if (draft->count - removed + inserted < (!draft->cyclic ? p + 1 : p > 2 ? p : 3)) return 0;
-    if (draft->cyclic ? draft->count > PIA_WINDOW_SHORT : removed + 2 * reach + p > PIA_WINDOW_FREE) return 0;
+    if (draft->cyclic ? draft->count > PIA_WINDOW_SHORT : more + 2 * reach + p > PIA_WINDOW_FREE) return 0;
+    w.gap = row;
+    w.gaps = gaps;
     if (draft->cyclic)
         cut_whole(draft, first, removed, added, inserted, &w);
     else
         cut_piece(draft, first, removed, added, inserted, reach, &w);
     find_rows(draft, &w);
-    if (w.rows < w.free || w.free < 1) return 0;
+    if ((w.rows < w.free && gaps == 0) || w.free < 1) return 0;
     if (!(pia_window_fit(draft, &w, rounds) <= 1)) return 0;
     if (draft->cyclic)
         put_whole(draft, &w);
     else
         put_piece(draft, first, removed, added, inserted, &w);
     return 1;
+}
+
+int pia_draft_replace(pia_draft *draft, pia_index first, int removed, const double *added, int inserted, int reach, int rounds)
+{
+    return replace(draft, 0, 0, first, removed, added, inserted, reach, rounds);
+}
+
+int pia_draft_fill(pia_draft *draft, pia_index row, int gaps, pia_index first, int removed, const double *added, int inserted,
+                   int reach, int rounds)
+{
+    return replace(draft, row, gaps, first, removed, added, inserted, reach, rounds);
 }

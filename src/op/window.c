@@ -10,9 +10,8 @@
 #include <string.h>
 
 /* SAMPLE: rows of a span to begin with, beside at most REMEMBERED critical ones. GROUPS: parts of a span of which each may send its
- * worst row. SPARSE: rows a span up to which all rows are taken at once. POLYNOMIAL: degree up to which Taylor polynomials around the
- * middle of a span keep their digits. */
-enum { SAMPLE = 5, REMEMBERED = 16, GROUPS = 4, EXCHANGES = 6, SPARSE = 16, POLYNOMIAL = 7, BLOCK = 64 };
+ * worst row. SPARSE: rows a span up to which all rows are taken at once. */
+enum { SAMPLE = 5, REMEMBERED = 16, GROUPS = 4, EXCHANGES = 6, SPARSE = 16, BLOCK = 64 };
 
 /* What counts as kept, a little below 1: control points are rounded when they are put back. */
 static const double KEPT = 1 - 1e-9;
@@ -232,16 +231,11 @@ static double fit_rows(const pia_draft *draft, pia_window *w, pia_rows *r, const
 
 /* ---- the pass over all rows ---- */
 
-/* The curve on one span as Taylor polynomial in x = (t - middle) * scale, x in [-1, 1]. */
-typedef struct piece {
-    double middle, scale, coefficient[(POLYNOMIAL + 1) * PIA_MAX_DIM];
-} piece;
-
-static piece piece_of(const pia_window *w, int span, int p, int dim)
+pia_piece pia_window_piece(const pia_window *w, int span, int p, int dim)
 {
     double half = (w->knots[span + 1] - w->knots[span]) / 2, factor = 1;
-    piece c = {.middle = w->knots[span] + half, .scale = 1 / half};
-    double basis[(POLYNOMIAL + 1) * (POLYNOMIAL + 1)];
+    pia_piece c = {.middle = w->knots[span] + half, .scale = 1 / half};
+    double basis[(PIA_PIECE_DEGREE + 1) * (PIA_PIECE_DEGREE + 1)];
     pia_basis_derivatives(w->knots, p, span, c.middle, p, basis);
     for (int order = 0; order <= p; order++) {
         for (int d = 0; d < dim; d++) {
@@ -260,7 +254,7 @@ PIA_INLINE pia_lanes spread(double x)
 }
 
 /* Squared distances of rows to the piece; returns the largest. */
-PIA_INLINE double squares_of(const piece *c, const double *t, double shift, const double *q, const double *origin, int count, int p,
+PIA_INLINE double squares_of(const pia_piece *c, const double *t, double shift, const double *q, const double *origin, int count, int p,
                              int dim, double *square)
 {
     double middle = c->middle - shift, last[PIA_MAX_DIM], worst = 0;
@@ -293,7 +287,7 @@ PIA_INLINE double squares_of(const piece *c, const double *t, double shift, cons
     return worst;
 }
 
-PIA_CLONES static double squares_of_piece(const piece *c, const double *t, double shift, const double *q, const double *origin,
+PIA_CLONES static double squares_of_piece(const pia_piece *c, const double *t, double shift, const double *q, const double *origin,
                                           int count, int p, int dim, double *square)
 {
     if (p == 3 && dim == 3) return squares_of(c, t, shift, q, origin, count, 3, 3, square);
@@ -322,7 +316,7 @@ static void squares_plain(const pia_window *w, const pia_draft_data *data, pia_i
 }
 
 /* The worst of the rows from .. to - 1 of one span; returns its squared ratio. */
-static double worst_of(const pia_draft *draft, const pia_window *w, const piece *c, int span, pia_index from, pia_index to,
+static double worst_of(const pia_draft *draft, const pia_window *w, const pia_piece *c, int span, pia_index from, pia_index to,
                        pia_index *row)
 {
     const pia_draft_data *data = draft->data;
@@ -336,7 +330,7 @@ static double worst_of(const pia_draft *draft, const pia_window *w, const piece 
         int count = left < BLOCK ? (int)left : BLOCK;
         const double *t = data->parameters + at, *q = data->points + at * dim;
         double most = INFINITY, one = data->inverse_one;
-        if (p > POLYNOMIAL || data->inverse_axis != NULL)
+        if (p > PIA_PIECE_DEGREE || data->inverse_axis != NULL)
             squares_plain(w, data, at, shift, span, count, p, dim, square);
         else
             most = squares_of_piece(c, t, shift, q, data->origin, count, p, dim, square);
@@ -361,8 +355,8 @@ static double exchange(const pia_draft *draft, const pia_window *w, const pia_in
     for (int s = 0; s < w->count - p; s++) {
         pia_index count = begin[s + 1] - begin[s];
         if (count <= SAMPLE) continue;
-        piece c = {0};
-        if (p <= POLYNOMIAL) c = piece_of(w, p + s, p, draft->dim);
+        pia_piece c = {0};
+        if (p <= PIA_PIECE_DEGREE) c = pia_window_piece(w, p + s, p, draft->dim);
         for (int group = 0; group < GROUPS; group++) {
             pia_index row = 0;
             double square =
@@ -388,12 +382,13 @@ double pia_window_fit(pia_draft *draft, pia_window *w, int rounds)
     if (!pia_window_hold(draft, w, &held)) return INFINITY;
     find_spans(draft, w, begin);
     sample_rows(draft, w, begin, all, &r);
+    pia_window_fill_gaps(draft, w, &r);
     for (int k = 0; k < EXCHANGES; k++) {
         double ratio = fit_rows(draft, w, &r, &held, rounds);
         if (!(ratio <= 1) || !pia_window_holds(w, &held, p, draft->dim)) return INFINITY;
-        if (all) return ratio;
-        ratio = exchange(draft, w, begin, &r);
-        if (ratio <= KEPT) return ratio;
+        if (!all) ratio = exchange(draft, w, begin, &r);
+        if (ratio <= (all ? 1 : KEPT) && draft->data->swing != NULL) ratio = fmax(ratio, pia_window_look_between(draft, w, begin, &r));
+        if (ratio <= (all ? 1 : KEPT)) return ratio;
     }
     return INFINITY;
 }

@@ -20,6 +20,8 @@ typedef struct pia_window {
     pia_index row, rows; /* data rows that moving control points touch, unrolled */
     double begin, end;   /* parameters that they touch */
     int has_end;         /* 1: `end` is among them: it is that of the curve */
+    pia_index gap;       /* unrolled row, from which on so many gaps got knots: all their places take part */
+    int gaps;
 } pia_window;
 
 /* Moves the control points until no row deviates more than it may, if that can be had: least squares, reweighted towards the smallest

@@ -26,6 +26,19 @@ static inline __attribute__((always_inline)) void pia_row_difference(const pia_r
     }
 }
 
+/* The curve on one span as Taylor polynomial in x = (t - middle) * scale, x in [-1, 1]: of degrees at which these keep their digits. */
+enum { PIA_PIECE_DEGREE = 7 };
+typedef struct pia_piece {
+    double middle, scale, coefficient[(PIA_PIECE_DEGREE + 1) * PIA_MAX_DIM];
+} pia_piece;
+pia_piece pia_window_piece(const pia_window *window, int span, int degree, int dim);
+
+/* Adds places of gaps, in the spans whose rows are begin[s] .. begin[s + 1] - 1, where the curve swings out more than it may. Returns
+ * the largest ratio to that. */
+double pia_window_look_between(const pia_draft *draft, const pia_window *window, const pia_index *begin, pia_rows *rows);
+/* Adds all places of the gaps that got knots. */
+void pia_window_fill_gaps(const pia_draft *draft, const pia_window *window, pia_rows *rows);
+
 /* Conditions that moving control points touch, scaled to absolute sum 1. */
 typedef struct pia_held {
     int count;
