@@ -38,8 +38,8 @@ static int put(reserve *r, void *block, int large)
     return 0;
 }
 
-/* One of that size or up to half more; NULL where there is none. */
-static void *take(reserve *r, size_t size)
+/* One of that size, or larger by `more` at most; NULL where there is none. */
+static void *take_within(reserve *r, size_t size, size_t more)
 {
     int large = size >= PIA_LARGE_BLOCK;
     for (int k = large ? 0 : LARGE; k < (large ? LARGE : BLOCKS); k++) {
@@ -47,13 +47,20 @@ static void *take(reserve *r, size_t size)
         void *block = atomic_exchange(&r->block[k], NULL);
         if (block == NULL) continue;
         size_t has = malloc_usable_size(block);
-        if (has >= size && has - size <= size / 2) {
+        if (has >= size && has - size <= more) {
             atomic_fetch_sub(&r->bytes, (long long)has);
             return block;
         }
         if (!put(r, block, large)) drop(r, block);
     }
     return NULL;
+}
+
+/* The same call asks for the same sizes again: one that fits is not taken from the next that needs it. */
+static void *take(reserve *r, size_t size)
+{
+    void *block = take_within(r, size, size / 16);
+    return block != NULL ? block : take_within(r, size, size / 2);
 }
 
 /* Returns 0 where it is one too many. Large pages stay what they are until somebody writes to them or the kernel has taken them. */

@@ -55,6 +55,19 @@ static void smaller_blocks_leave_the_places_of_large_ones_alone(void **state)
     pia_reserve_close(&memory);
 }
 
+static void a_block_that_fits_is_taken_before_a_larger_one(void **state)
+{
+    (void)state;
+    pia_memory memory = open_reserve();
+    void *larger = take(&memory, LARGE + LARGE / 3), *fitting = take(&memory, LARGE), *again;
+    pia_memory_give(&memory, larger);
+    pia_memory_give(&memory, fitting);
+    again = take(&memory, LARGE);
+    assert_ptr_equal(again, fitting);
+    pia_memory_give(&memory, again);
+    pia_reserve_close(&memory);
+}
+
 static void two_that_live_at_once_are_two(void **state)
 {
     (void)state;
@@ -148,6 +161,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_large_block_is_handed_to_the_next),
         cmocka_unit_test(smaller_blocks_leave_the_places_of_large_ones_alone),
+        cmocka_unit_test(a_block_that_fits_is_taken_before_a_larger_one),
         cmocka_unit_test(two_that_live_at_once_are_two),
         cmocka_unit_test(a_block_of_twice_the_size_waits_for_its_like),
         cmocka_unit_test(more_blocks_than_are_kept_are_released),
