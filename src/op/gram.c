@@ -13,22 +13,16 @@ static const double weak_pivot = 1e-13, ridge = 1e-9;
 
 pia_status pia_gram_open(pia_context *context, const pia_collocation *line, pia_gram *out)
 {
-    size_t row = (size_t)(line->degree + 1) * sizeof(double);
-    double *band = pia_take(context, line->unknowns, row);
-    if (band == NULL) return pia_take_status(context, line->unknowns, row);
-    *out = pia_gram_of(context, line, band);
-    out->borrowed = 0;
+    pia_gram gram = {.context = context, .line = line, .count = line->unknowns, .width = line->degree};
+    gram.band = pia_take(context, gram.count, (size_t)(gram.width + 1) * sizeof *gram.band);
+    if (gram.band == NULL) return pia_take_status(context, gram.count, (size_t)(gram.width + 1) * sizeof *gram.band);
+    *out = gram;
     return PIA_OK;
-}
-
-pia_gram pia_gram_of(pia_context *context, const pia_collocation *line, double *band)
-{
-    return (pia_gram){.context = context, .line = line, .count = line->unknowns, .width = line->degree, .borrowed = 1, .band = band};
 }
 
 void pia_gram_close(pia_gram *gram)
 {
-    if (!gram->borrowed) pia_give(gram->context, gram->band);
+    pia_give(gram->context, gram->band);
     pia_give(gram->context, gram->factor);
     pia_give(gram->context, gram->border);
     pia_give(gram->context, gram->still);

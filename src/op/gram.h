@@ -9,7 +9,6 @@ typedef struct pia_gram {
     const pia_collocation *line; /* borrowed */
     pia_index count;             /* unknowns */
     int width;                   /* the degree */
-    int borrowed;                /* 1: so is the band */
     double *band;                /* [count x (width + 1)], entry (i, k) couples unknowns i and i + k (closed: modulo count) */
     double *factor, *border;     /* its LDL'; NULL until factored */
     unsigned char *still;        /* [count] then: 1 where an unknown is frozen or has no data */
@@ -18,9 +17,8 @@ typedef struct pia_gram {
     pia_index refused; /* those of the second kind, as far as the digits of the matrix say */
 } pia_gram;
 
-/* A matrix whose numbers are not set yet; and one in a band that outlives it. */
+/* A matrix whose numbers are not set yet. */
 pia_status pia_gram_open(pia_context *context, const pia_collocation *line, pia_gram *out);
-pia_gram pia_gram_of(pia_context *context, const pia_collocation *line, double *band);
 void pia_gram_close(pia_gram *gram);
 /* All numbers 0. */
 void pia_gram_clear(pia_gram *gram);

@@ -3,26 +3,10 @@
 #include "energy.h"
 #include "kernel.h"
 
-/* Of a curve all in one block, with the band: where it is large, a context keeps it for its next call, while blocks of a few megabytes
- * would be new memory every time. */
-static pia_status take_block(pia_normal *normal, int dim)
-{
-    pia_context *context = normal->op->context;
-    pia_index cols = normal->op->cols;
-    size_t unknown = (size_t)(dim + 2 + normal->op->line[0]->degree + 1) * sizeof(double);
-    normal->right = pia_take(context, cols, unknown);
-    if (normal->right == NULL) return pia_take_status(context, cols, unknown);
-    normal->diagonal = normal->right + cols * dim;
-    normal->column_sum = normal->diagonal + cols;
-    normal->band = normal->column_sum + cols;
-    return PIA_OK;
-}
-
 static pia_status take_arrays(pia_normal *normal, int dim)
 {
     pia_context *context = normal->op->context;
     pia_index cols = normal->op->cols;
-    if (normal->op->directions == 1) return take_block(normal, dim);
     normal->right = pia_take(context, cols, (size_t)dim * sizeof *normal->right);
     normal->diagonal = pia_take(context, cols, sizeof *normal->diagonal);
     normal->column_sum = pia_take(context, cols, sizeof *normal->column_sum);
@@ -74,8 +58,8 @@ void pia_normal_close(pia_normal *normal)
     if (normal->class != NULL) normal->class->close(normal);
     pia_energy_close(normal->energy);
     pia_give(context, normal->right);
-    if (normal->band == NULL) pia_give(context, normal->diagonal);
-    if (normal->band == NULL) pia_give(context, normal->column_sum);
+    pia_give(context, normal->diagonal);
+    pia_give(context, normal->column_sum);
     pia_give(context, normal);
 }
 

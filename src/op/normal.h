@@ -25,11 +25,10 @@ typedef struct pia_normal_class {
                                                                                         solve is as exact from then on */
     pia_status (*approximate)(pia_normal *normal);                      /* before precondition, and after every change; NULL: factor */
     void (*precondition)(const pia_normal *normal, double *b, int dim); /* b := M^-1 b, M close to H; NULL: solve */
-    pia_status (*leap)(const pia_normal *normal, int dim, double *x, int *done); /* x := H^-1 b, at once and nearly to rounding, where
-                                                                     nothing is frozen; else *done = 0. NULL: there is no way */
-    double (*residual)(const pia_normal *normal, const double *x, int dim,
-                       double *r); /* sum of squares of b - H x where
-                 nothing is frozen; r receives it, NULL: unwanted. NULL: by multiply */
+    /* x := H^-1 b, at once and nearly to rounding, where nothing is frozen; else *done = 0. NULL: there is no way. */
+    pia_status (*leap)(const pia_normal *normal, int dim, double *x, int *done);
+    /* Sum of squares of b - H x where nothing is frozen; r receives it, NULL: unwanted. NULL: by multiply. */
+    double (*residual)(const pia_normal *normal, const double *x, int dim, double *r);
     void (*refresh)(pia_normal *normal, const pia_targets *targets, pia_index first_row, pia_index last_row);
     void (*close)(pia_normal *normal);
 } pia_normal_class;
@@ -40,7 +39,6 @@ struct pia_normal {
     double *right;             /* b [cols x dim] */
     double *diagonal;          /* of H [cols] */
     double *column_sum;        /* sum over rows of w N_c [cols] */
-    double *band;              /* of a curve: room for H, in one block with these three; NULL: they are blocks of their own */
     pia_index weak;            /* unknowns that the data do not hold, known after factor: solutions are 0 or small there */
     int delicate;              /* 1, known after factor: H has lost digits that the rows still have, and `correct` is there */
     struct pia_energy *energy; /* added to H, see energy.h; NULL: none */

@@ -237,7 +237,7 @@ static void sum_touched(pia_normal *normal, const pia_targets *targets, pia_inde
     const pia_collocation *line = normal->op->line[0];
     const pia_addition nothing = {0};
     pia_index count = line->unknowns, copies = line->full - count;
-    int first = from<copies, last = to> count, dim = targets->dim;
+    int first = (from < copies), last = (to > count), dim = targets->dim;
     pia_index low = first && to > copies ? to : copies, high = last && from < count ? from : count;
     if (line->map == PIA_MAP_DOUBLED || line->offset != 0 || ((first || last) && low >= high)) {
         sum_all(normal, targets, &nothing);
@@ -417,8 +417,8 @@ pia_status pia_normal_curve_open(pia_normal *normal, const pia_targets *targets,
     normal->state = c;
     normal->class = &banded;
     c->room = pia_span_room(line->degree, targets->dim);
-    c->gram = pia_gram_of(context, line, normal->band);
-    pia_status status = take_room(normal, targets->dim);
+    pia_status status = pia_gram_open(context, line, &c->gram);
+    if (status == PIA_OK) status = take_room(normal, targets->dim);
     if (status == PIA_OK) status = sum_all(normal, targets, addition);
     if (status == PIA_OK) add_more(normal, targets->dim);
     return status;
