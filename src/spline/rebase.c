@@ -51,11 +51,12 @@ static void fill_combinations(const pia_rebase *r, pia_index begin, pia_index co
 
 static void combine_line(const pia_rebase *r, const combination *made, pia_index count, const double *from, double *to)
 {
-    pia_index inner = r->lines.inner;
-    for (pia_index j = 0; j<count; j += made[j].copies> 0 ? made[j].copies : 1) {
+    pia_index inner = r->lines.inner, taken;
+    for (pia_index j = 0; j < count; j += taken) {
         const double *old = from + made[j].from * inner;
+        taken = made[j].copies > 0 ? made[j].copies : 1;
         if (made[j].copies > 0)
-            memcpy(to + j * inner, old, (size_t)(made[j].copies * inner) * sizeof *to);
+            memcpy(to + j * inner, old, (size_t)(taken * inner) * sizeof *to);
         else
             combine(made[j].row, r->degree + 1, old, inner, to + j * inner);
     }
