@@ -3,6 +3,7 @@
 #include <stdlib.h>
 
 #include "check.h"
+#include "dense_solve.h"
 
 static const char *const methods[] = {"direct",  "lspia",     "lspia-opt", "mlspia",  "nmlspia", "alspia",
                                       "salspia", "chebyshev", "cg",        "cg-kron", "clspia",  "clspia-pcg"};
@@ -97,31 +98,6 @@ static void make(sample *s, pia_kind kind, int degree, int weighted)
     s->options.stop_gradient = 1e-15;
 }
 
-/* x [n x DIM] := the least-squares solution of a [m x n] x = q [m x DIM], by Householder reflections; a and q are overwritten. */
-static void dense_solve(double *a, double *q, pia_index m, pia_index n, double *x)
-{
-    for (pia_index k = 0; k < n; k++) {
-        double length = 0;
-        for (pia_index i = k; i < m; i++) length += a[i * n + k] * a[i * n + k];
-        length = a[k * n + k] > 0 ? -sqrt(length) : sqrt(length);
-        double head = a[k * n + k] - length, scale = -1 / (length * head);
-        a[k * n + k] = head;
-        for (pia_index c = k + 1; c < n + DIM; c++) {
-            double *column = c < n ? a + c : q + (c - n), sum = 0;
-            pia_index stride = c < n ? n : DIM;
-            for (pia_index i = k; i < m; i++) sum += a[i * n + k] * column[i * stride];
-            for (pia_index i = k; i < m; i++) column[i * stride] -= scale * sum * a[i * n + k];
-        }
-        a[k * n + k] = length;
-    }
-    for (pia_index k = n; k-- > 0;)
-        for (int d = 0; d < DIM; d++) {
-            x[k * DIM + d] = q[k * DIM + d];
-            for (pia_index c = k + 1; c < n; c++) x[k * DIM + d] -= a[k * n + c] * x[c * DIM + d];
-            x[k * DIM + d] /= a[k * n + k];
-        }
-}
-
 /* Of the control points x those that are not frozen := the minimum that the others leave. */
 static void minimise(sample *s, const unsigned char *frozen, double *x)
 {
@@ -141,7 +117,7 @@ static void minimise(sample *s, const unsigned char *frozen, double *x)
         }
         m++;
     }
-    dense_solve(s->free_row, s->right, m, n, solution);
+    dense_solve(s->free_row, s->right, m, n, DIM, solution);
     for (pia_index c = 0; c < n; c++) memcpy(x + column[c] * DIM, solution + c * DIM, DIM * sizeof *x);
 }
 

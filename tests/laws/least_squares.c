@@ -2,6 +2,7 @@
 #include <stdlib.h>
 
 #include "check.h"
+#include "dense_solve.h"
 
 static const char *const methods[] = {"lspia",   "lspia-opt", "mlspia", "nmlspia",     "alspia",
                                       "salspia", "chebyshev", "cg",     "gauss-seidel"};
@@ -80,31 +81,6 @@ static double basis(const double *knots, pia_index i, int degree, double t, pia_
     if (left > 0) sum += (t - knots[i]) / left * basis(knots, i, degree - 1, t, last);
     if (right > 0) sum += (knots[i + degree + 1] - t) / right * basis(knots, i + 1, degree - 1, t, last);
     return sum;
-}
-
-/* x [n x dim] := the least-squares solution of a [m x n] x = q [m x dim], by Householder reflections; a and q are overwritten. */
-static void dense_solve(double *a, double *q, pia_index m, pia_index n, int dim, double *x)
-{
-    for (pia_index k = 0; k < n; k++) {
-        double length = 0;
-        for (pia_index i = k; i < m; i++) length += a[i * n + k] * a[i * n + k];
-        length = a[k * n + k] > 0 ? -sqrt(length) : sqrt(length);
-        double head = a[k * n + k] - length, scale = -1 / (length * head);
-        a[k * n + k] = head;
-        for (pia_index c = k + 1; c < n + dim; c++) {
-            double *column = c < n ? a + c : q + (c - n), sum = 0;
-            pia_index stride = c < n ? n : dim;
-            for (pia_index i = k; i < m; i++) sum += a[i * n + k] * column[i * stride];
-            for (pia_index i = k; i < m; i++) column[i * stride] -= scale * sum * a[i * n + k];
-        }
-        a[k * n + k] = length;
-    }
-    for (pia_index k = n; k-- > 0;)
-        for (int d = 0; d < dim; d++) {
-            x[k * dim + d] = q[k * dim + d];
-            for (pia_index c = k + 1; c < n; c++) x[k * dim + d] -= a[k * n + c] * x[c * dim + d];
-            x[k * dim + d] /= a[k * n + k];
-        }
 }
 
 /* The reference: rows of the collocation matrix by the recursion of Cox and de Boor, times the roots of the weights. */
