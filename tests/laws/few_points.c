@@ -1,5 +1,5 @@
 /* A tolerance can be had wherever a curve or surface can go through all points, however few those are. */
-#include "check.h"
+#include "context_fixture.h"
 
 static double random_number(uint64_t *seed)
 {
@@ -68,17 +68,6 @@ static void few_points_of_a_grid_are_met(void **state)
                 options.degree[0] = p;
                 is_reached(*state, &data, &options);
             }
-}
-
-static int open_context(void **state)
-{
-    return pia_context_create(NULL, (pia_context **)state) != PIA_OK;
-}
-
-static int close_context(void **state)
-{
-    pia_context_destroy(*state);
-    return 0;
 }
 
 int main(void)

@@ -1,6 +1,6 @@
 /* Knots for a tolerance where points are missing: rows without weight, holes of a grid. The points that count are within the tolerance,
  * and the control points stay near the data, though nothing but bridging holds those in a gap. */
-#include "check.h"
+#include "context_fixture.h"
 
 #include <stdlib.h>
 
@@ -105,17 +105,6 @@ static void grids_bridge_holes_and_rows_without_weight(void **state)
         options.tolerance = 0.01;
         stays_near(*state, &data, &options, U * V, weights);
     }
-}
-
-static int open_context(void **state)
-{
-    return pia_context_create(NULL, (pia_context **)state) != PIA_OK;
-}
-
-static int close_context(void **state)
-{
-    pia_context_destroy(*state);
-    return 0;
 }
 
 int main(void)

@@ -1,6 +1,6 @@
 /* Laws of every method that interpolates, over the public interface: one limit, affine maps and reversal commute with fitting, threads
  * change nothing, [2004]'s tri-diagonal step is the general one. */
-#include "check.h"
+#include "context_fixture.h"
 
 #include <stdlib.h>
 
@@ -297,17 +297,6 @@ static void a_grid_has_the_limit_of_its_lines(void **state)
             pia_model_destroy(model[0]);
             pia_model_destroy(model[1]);
         }
-}
-
-static int open_context(void **state)
-{
-    return pia_context_create(NULL, (pia_context **)state) != PIA_OK;
-}
-
-static int close_context(void **state)
-{
-    pia_context_destroy(*state);
-    return 0;
 }
 
 int main(void)

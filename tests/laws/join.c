@@ -1,5 +1,5 @@
 /* A fit that goes on from a neighbouring model. */
-#include "check.h"
+#include "context_fixture.h"
 
 #include <stdlib.h>
 
@@ -212,17 +212,6 @@ static void a_join_is_added_to_and_released_from_a_running_fit(void **state)
     assert_status(*state, pia_fit_open(*state, &data, &options, &fit), PIA_E_SHAPE);
     pia_model_destroy(surface);
     pia_model_destroy(neighbour);
-}
-
-static int open_context(void **state)
-{
-    return pia_context_create(NULL, (pia_context **)state) != PIA_OK;
-}
-
-static int close_context(void **state)
-{
-    pia_context_destroy(*state);
-    return 0;
 }
 
 int main(void)

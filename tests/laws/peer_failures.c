@@ -1,6 +1,6 @@
 /* How other fitting software failed, each as one test through the public interface. The numbers are those of the project's list of
  * known failures; the rest of them stand with the parts they belong to. */
-#include "check.h"
+#include "context_fixture.h"
 
 #include <stdlib.h>
 #include <unistd.h>
@@ -373,17 +373,6 @@ static void t_peer_40_and_41_large_grids_have_no_erratic_values(void **state)
     }
     pia_model_destroy(model);
     free(points);
-}
-
-static int open_context(void **state)
-{
-    return pia_context_create(NULL, (pia_context **)state) != PIA_OK;
-}
-
-static int close_context(void **state)
-{
-    pia_context_destroy(*state);
-    return 0;
 }
 
 int main(void)

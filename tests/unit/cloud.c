@@ -1,5 +1,5 @@
 /* Parameters of scattered points on base surfaces. */
-#include "check.h"
+#include "context_fixture.h"
 
 #include "cloud.h"
 
@@ -146,17 +146,6 @@ static void points_on_one_line_are_refused(void **state)
         for (int d = 0; d < 3; d++) points[3 * i + d] = d == 0 ? i : 0;
     for (pia_index k = 0; pia_cloud_list(k) != NULL; k++)
         assert_status(*state, pia_cloud_list(k)->compute(*state, points, 10, 3, uv, &closed), PIA_E_DATA);
-}
-
-static int open_context(void **state)
-{
-    return pia_context_create(NULL, (pia_context **)state) != PIA_OK;
-}
-
-static int close_context(void **state)
-{
-    pia_context_destroy(*state);
-    return 0;
 }
 
 int main(void)

@@ -1,6 +1,6 @@
 /* Fits of clouds without parameters: which base is taken, foot points, what is said when a tolerance cannot be had, and that surfaces
  * stay near their points where there are none. */
-#include "check.h"
+#include "context_fixture.h"
 
 #include "overlap.h"
 
@@ -243,17 +243,6 @@ static void overlaps_are_those_of_all_pairs(void **state)
     }
     assert_ok(*state, pia_overlap_find(*state, uv, at, FEW, 1, &overlap));
     assert_near(overlap.distance, 0, 0);
-}
-
-static int open_context(void **state)
-{
-    return pia_context_create(NULL, (pia_context **)state) != PIA_OK;
-}
-
-static int close_context(void **state)
-{
-    pia_context_destroy(*state);
-    return 0;
 }
 
 int main(void)

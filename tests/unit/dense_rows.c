@@ -1,6 +1,7 @@
 /* Least squares of high degree, held against an orthogonal factorisation of the dense rows by LAPACK. */
 #include <lapacke.h>
 
+#include "context_fixture.h"
 #include "problems.h"
 
 enum { ROWS = 600, MOST = 40 };
@@ -186,17 +187,6 @@ static void constraints_of_high_degree_are_met_at_the_constrained_minimum(void *
     }
     assert_int_equal(LAPACKE_dgglse(LAPACK_ROW_MAJOR, ROWS, CONTROL, MET, a, CONTROL, b, CONTROL, c, d, x), 0);
     for (int i = 0; i < CONTROL; i++) assert_near(ours[i], x[i], 1e-8);
-}
-
-static int open_context(void **state)
-{
-    return pia_context_create(NULL, (pia_context **)state) != PIA_OK;
-}
-
-static int close_context(void **state)
-{
-    pia_context_destroy(*state);
-    return 0;
 }
 
 int main(void)

@@ -1,5 +1,6 @@
 /* Fairing: the energy matrix against quadrature of products of derivatives, one limit for every method, what the strength means. */
 #include "../memory/failing.h"
+#include "context_fixture.h"
 #include "dense_normal.h"
 #include "energy.h"
 #include "problems.h"
@@ -291,20 +292,6 @@ static void every_allocation_may_fail(void **state)
         make_noisy(&n, kind == 0 ? PIA_CURVE : PIA_SCATTERED);
         assert_survives_failures(fit_again, &n);
     }
-}
-
-static int open_context(void **state)
-{
-    pia_context *context = NULL;
-    pia_status status = pia_context_create(NULL, &context);
-    *state = context;
-    return status == PIA_OK ? 0 : -1;
-}
-
-static int close_context(void **state)
-{
-    pia_context_destroy(*state);
-    return 0;
 }
 
 int main(void)

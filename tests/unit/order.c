@@ -1,5 +1,5 @@
 /* Orders of points that have none, against a walk that looks at all pairs and against the order in which they were made. */
-#include "check.h"
+#include "context_fixture.h"
 
 #include "order.h"
 
@@ -149,17 +149,6 @@ static void bad_points_and_words_are_named(void **state)
     assert_int_equal(pia_points_order(*state, points, 2, 2, "tree", order, NULL), PIA_E_DATA);
     assert_non_null(strstr(pia_message(*state), "too far apart"));
     assert_int_equal(pia_points_order(*state, points, 0, 2, "tree", order, NULL), PIA_E_ARGUMENT);
-}
-
-static int open_context(void **state)
-{
-    return pia_context_create(NULL, (pia_context **)state) != PIA_OK;
-}
-
-static int close_context(void **state)
-{
-    pia_context_destroy(*state);
-    return 0;
 }
 
 int main(void)

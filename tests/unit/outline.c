@@ -1,5 +1,5 @@
 /* Where points end: distances, contours, hulls and alpha shapes against brute force and against shapes whose area is known. */
-#include "check.h"
+#include "context_fixture.h"
 
 #include "hull.h"
 #include "outline.h"
@@ -193,17 +193,6 @@ static void wrong_arguments_are_refused(void **state)
     assert_status(*state, pia_model_trim_to_points(*state, model, bad, 3, &negative, &out), PIA_E_ARGUMENT);
     assert_null(out);
     pia_model_destroy(model);
-}
-
-static int open_context(void **state)
-{
-    return pia_context_create(NULL, (pia_context **)state) != PIA_OK;
-}
-
-static int close_context(void **state)
-{
-    pia_context_destroy(*state);
-    return 0;
 }
 
 int main(void)

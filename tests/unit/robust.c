@@ -1,5 +1,5 @@
 /* Robust losses: gross outliers neither move the fit nor hide. */
-#include "check.h"
+#include "context_fixture.h"
 #include "problems.h"
 
 #include <unistd.h>
@@ -325,20 +325,6 @@ static void every_allocation_may_fail(void **state)
     c.data.count[0] = 60;
     assert_survives_failures(fit_again, &c);
     release(&c);
-}
-
-static int open_context(void **state)
-{
-    pia_context *context = NULL;
-    pia_status status = pia_context_create(NULL, &context);
-    *state = context;
-    return status == PIA_OK ? 0 : -1;
-}
-
-static int close_context(void **state)
-{
-    pia_context_destroy(*state);
-    return 0;
 }
 
 int main(void)

@@ -1,5 +1,5 @@
 /* Neighbours and the spanning tree against all pairs. */
-#include "check.h"
+#include "context_fixture.h"
 
 #include "kdtree.h"
 #include "spanning_tree.h"
@@ -109,17 +109,6 @@ static void one_point_and_equal_points_make_trees(void **state)
     assert_ok(*state, pia_spanning_tree(*state, same, 4, 2, &edges));
     for (int e = 0; e < 3; e++) assert_near(edges[e].length, 0, 0);
     free(edges);
-}
-
-static int open_context(void **state)
-{
-    return pia_context_create(NULL, (pia_context **)state) != PIA_OK;
-}
-
-static int close_context(void **state)
-{
-    pia_context_destroy(*state);
-    return 0;
 }
 
 int main(void)

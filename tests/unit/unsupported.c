@@ -1,5 +1,5 @@
 /* Data that leave control points without hold: gaps in curves, holes in grids, clusters of scattered points. No method runs away. */
-#include "check.h"
+#include "context_fixture.h"
 #include "problems.h"
 
 #include "../memory/failing.h"
@@ -236,20 +236,6 @@ static void held_data_get_no_pull(void **state)
         assert_null(list);
         pia_fit_close(fit);
     }
-}
-
-static int open_context(void **state)
-{
-    pia_context *context = NULL;
-    pia_status status = pia_context_create(NULL, &context);
-    *state = context;
-    return status == PIA_OK ? 0 : -1;
-}
-
-static int close_context(void **state)
-{
-    pia_context_destroy(*state);
-    return 0;
 }
 
 static pia_status fit_again(pia_context *context, void *user)
