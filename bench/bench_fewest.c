@@ -15,16 +15,11 @@
 
 #include "pia/pia.h"
 #include "run_peer.h"
+#include "settings.h"
 
 enum { MAX_CASES = 400, PEERS = 3 };
 static const double relative[] = {1e-2, 1e-3, 1e-4};
 static const char *const peer_names[PEERS] = {"sisl", "occt", "scipy"};
-
-typedef struct settings {
-    const char *data, *only, *directory;
-    int distance, peers;
-    double limit;
-} settings;
 
 typedef struct curve {
     char name[128];
@@ -291,41 +286,9 @@ static void print_totals(const settings *s, totals *t)
            quantile(t->ratio, t->ratios, 0.5), quantile(t->ratio, t->ratios, 0.9), quantile(t->ratio, t->ratios, 1));
 }
 
-static settings parse(int argc, char **argv)
-{
-    settings s = {.data = PIA_BENCH "/../data", .directory = ".", .peers = (1 << PEERS) - 1, .limit = 60};
-    static char directory[512];
-    char *slash = strrchr(argv[0], '/');
-    if (slash != NULL) {
-        snprintf(directory, sizeof directory, "%.*s", (int)(slash - argv[0]), argv[0]);
-        s.directory = directory;
-    }
-    for (int i = 1; i < argc; i++) {
-        if (strcmp(argv[i], "--data") == 0 && i + 1 < argc)
-            s.data = argv[++i];
-        else if (strcmp(argv[i], "--only") == 0 && i + 1 < argc)
-            s.only = argv[++i];
-        else if (strcmp(argv[i], "--limit") == 0 && i + 1 < argc)
-            s.limit = atof(argv[++i]);
-        else if (strcmp(argv[i], "--distance") == 0)
-            s.distance = 1;
-        else if (strcmp(argv[i], "--no-peers") == 0)
-            s.peers = 0;
-        else if (strcmp(argv[i], "--peers") == 0 && i + 1 < argc) {
-            i++;
-            s.peers = 0;
-            for (int peer = 0; peer < PEERS; peer++) s.peers |= (strstr(argv[i], peer_names[peer]) != NULL) << peer;
-        } else {
-            fprintf(stderr, "bench_fewest: unknown argument %s\n", argv[i]);
-            exit(2);
-        }
-    }
-    return s;
-}
-
 int main(int argc, char **argv)
 {
-    settings s = parse(argc, argv);
+    settings s = read_settings(argc, argv, peer_names, PEERS, "", 0);
     pia_context *context;
     static totals t;
     char line[256];
