@@ -1,11 +1,10 @@
 /* There are registers enough to see the rows in passing: who looked at a block first would wait for memory with nothing to do. */
-#include "vector.h"
+#define LANES 8
+#include "vector_lanes.h"
 
 #include <math.h>
 
-enum { LANES = 8, AHEAD = 96 };
-typedef double lanes __attribute__((vector_size(LANES * sizeof(double))));
-typedef int64_t masks __attribute__((vector_size(LANES * sizeof(int64_t)))); /* -1: true */
+enum { AHEAD = 96 };
 
 typedef struct sight {
     lanes low[3], high[3]; /* by places: three vectors hold the components in turn */
@@ -13,17 +12,10 @@ typedef struct sight {
     masks fallen;
 } sight;
 
-PIA_INLINE lanes load(const double *from)
-{
-    lanes value;
-    memcpy(&value, from, sizeof value);
-    return value;
-}
-
 /* Rows to columns, two shuffles a column at most. */
 PIA_INLINE void split(const double *q, int dim, lanes *component)
 {
-    lanes a = load(q), b = dim > 1 ? load(q + LANES) : a, c = dim > 2 ? load(q + 2 * LANES) : a;
+    lanes a = lanes_load(q), b = dim > 1 ? lanes_load(q + LANES) : a, c = dim > 2 ? lanes_load(q + 2 * LANES) : a;
     if (dim == 1) {
         component[0] = a;
     } else if (dim == 2) {
@@ -39,34 +31,15 @@ PIA_INLINE void split(const double *q, int dim, lanes *component)
     }
 }
 
-/* b where a is not a number. */
-PIA_INLINE lanes lower(lanes a, lanes b)
-{
-    double x[LANES], y[LANES];
-    memcpy(x, &a, sizeof x);
-    memcpy(y, &b, sizeof y);
-    for (int l = 0; l < LANES; l++) y[l] = x[l] < y[l] ? x[l] : y[l];
-    return load(y);
-}
-
-PIA_INLINE lanes upper(lanes a, lanes b)
-{
-    double x[LANES], y[LANES];
-    memcpy(x, &a, sizeof x);
-    memcpy(y, &b, sizeof y);
-    for (int l = 0; l < LANES; l++) y[l] = x[l] > y[l] ? x[l] : y[l];
-    return load(y);
-}
-
 PIA_INLINE void see(const double *t, const double *q, int dim, sight *seen)
 {
-    lanes now = load(t), before = __builtin_shufflevector(seen->last, now, 7, 8, 9, 10, 11, 12, 13, 14);
+    lanes now = lanes_load(t), before = __builtin_shufflevector(seen->last, now, 7, 8, 9, 10, 11, 12, 13, 14);
     seen->fallen |= ~(before <= now);
     seen->last = now;
     for (int k = 0; k < dim; k++) {
-        lanes value = load(q + k * LANES);
-        seen->low[k] = lower(value, seen->low[k]);
-        seen->high[k] = upper(value, seen->high[k]);
+        lanes value = lanes_load(q + k * LANES);
+        seen->low[k] = lanes_lower(value, seen->low[k]);
+        seen->high[k] = lanes_upper(value, seen->high[k]);
     }
 }
 

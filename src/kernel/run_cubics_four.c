@@ -1,17 +1,12 @@
 /* A block of rows goes through the first-level cache: the scout first, then one half of the lanes, then the other. */
-#include "vector.h"
+#define LANES 4
+#include "vector_lanes.h"
 
-enum { LANES = PIA_LANES, AHEAD = 1024, BLOCK = 512 };
-typedef pia_lanes lanes;
+enum { AHEAD = 1024, BLOCK = 512 };
 
 typedef struct sight {
     int nothing;
 } sight;
-
-PIA_INLINE lanes load(const double *from)
-{
-    return pia_vector_load(from);
-}
 
 PIA_INLINE void split(const double *q, int dim, lanes *component)
 {

@@ -1,5 +1,5 @@
 /* The pass over the rows of a cubic run, for vectors of LANES doubles (`lanes`), which take a part of the eight lanes at a time.
- * Included once for each width, with `load`; `split`, which loads the components of LANES rows; AHEAD: what lies so many rows ahead is
+ * Included once for each width, with `split`, which loads the components of LANES rows; AHEAD: what lies so many rows ahead is
  * fetched; what is seen of the rows in passing (`sight`, `see`); and TARGETS before functions that are made for certain processors. */
 #include "run_block.h"
 #include "run_cubics.h"
@@ -18,13 +18,13 @@ PIA_INLINE void add_lanes(const pia_run *run, pia_index from, pia_index to, int 
     lanes plain[3], product[3], component[3][4], origin[3];
     sight here = *seen;
     double middle = run->middle, scale = run->scale;
-    for (int j = 0; j < 3; j++) plain[j] = load(sum[j] + first);
-    for (int j = 0; j < 3; j++) product[j] = load(sum[3 + j] + first);
-    for (int j = 0; j < 4 * dim; j++) component[j / 4][j % 4] = load(sum[6 + j] + first);
+    for (int j = 0; j < 3; j++) plain[j] = lanes_load(sum[j] + first);
+    for (int j = 0; j < 3; j++) product[j] = lanes_load(sum[3 + j] + first);
+    for (int j = 0; j < 4 * dim; j++) component[j / 4][j % 4] = lanes_load(sum[6 + j] + first);
     for (int d = 0; d < dim; d++) origin[d] = (lanes){0} + run->origin[d];
     for (pia_index row = from + first; row < to; row += PIA_CUBIC_LANES) {
         const double *t = run->t + row, *q = run->points + row * dim;
-        lanes value[3], x = (load(t) - middle) * scale, twice = x + x, p[3] = {x, twice * x - 1};
+        lanes value[3], x = (lanes_load(t) - middle) * scale, twice = x + x, p[3] = {x, twice * x - 1};
         p[2] = twice * p[1] - x;
         fetch(t, q, dim);
         see(t, q, dim, &here);

@@ -67,8 +67,8 @@ PIA_INLINE void go_down(const pia_square_grid *g, const lanes *number, pia_index
     for (int k = 0; k < points; k++, factor += size)
         for (int d = 0; d < dim; d++, at += row) {
             lanes y = number[k * dim + d] - shift[d];
-            for (int r = reach; r >= 1; r--) y -= factor[-r] * load(at - r * dim * row);
-            store(y * factor[0], at);
+            for (int r = reach; r >= 1; r--) y -= factor[-r] * lanes_load(at - r * dim * row);
+            lanes_store(y * factor[0], at);
         }
 }
 
@@ -81,9 +81,9 @@ PIA_INLINE void go_up(const pia_square_grid *g, lanes *number, pia_index point, 
     for (int k = points - 1; k >= 0; k--, factor -= size)
         for (int d = 0; d < dim; d++) {
             double *at = block + ((point + k) * dim + d) * row;
-            lanes x = load(at);
-            for (int r = reach; r >= 1; r--) x -= factor[r] * load(at + r * dim * row);
-            store(x, at);
+            lanes x = lanes_load(at);
+            for (int r = reach; r >= 1; r--) x -= factor[r] * lanes_load(at + r * dim * row);
+            lanes_store(x, at);
             number[k * dim + d] = x;
         }
 }

@@ -95,9 +95,9 @@ PIA_INLINE void eliminate_row(const strip *s, const double *from, pia_index i, i
     double factor[PIA_MAX_DEGREE + 1], *to = s->block + i * size;
     for (int r = 0; r <= reach; r++) factor[r] = row[-r];
     for (pia_index c = 0; c < size; c += LANES) {
-        lanes y = load(from + c);
-        for (int r = reach; r >= 1; r--) y -= factor[r] * load(to - r * size + c);
-        store(y * factor[0], to + c);
+        lanes y = lanes_load(from + c);
+        for (int r = reach; r >= 1; r--) y -= factor[r] * lanes_load(to - r * size + c);
+        lanes_store(y * factor[0], to + c);
     }
 }
 
@@ -109,9 +109,9 @@ PIA_INLINE void substitute_row(const strip *s, pia_index i, int reach)
     double factor[PIA_MAX_DEGREE + 1], *to = s->block + i * size;
     for (int r = 1; r <= reach; r++) factor[r] = row[r];
     for (pia_index c = 0; c < size; c += LANES) {
-        lanes x = load(to + c);
-        for (int r = reach; r >= 1; r--) x -= factor[r] * load(to + r * size + c);
-        store(x, to + c);
+        lanes x = lanes_load(to + c);
+        for (int r = reach; r >= 1; r--) x -= factor[r] * lanes_load(to + r * size + c);
+        lanes_store(x, to + c);
     }
 }
 
@@ -127,11 +127,11 @@ PIA_INLINE void multiply_row(const strip *s, pia_index i, const double *const *p
     for (pia_index c = 0; c < size; c += LANES) {
         lanes before = {0}, after = {0};
         for (int r = -lower; r <= upper; r++) {
-            before += entry[r] * (load(points[r] + c) - load(shift + c));
-            after += entry[r] * load(x + r * size + c);
+            before += entry[r] * (lanes_load(points[r] + c) - lanes_load(shift + c));
+            after += entry[r] * lanes_load(x + r * size + c);
         }
-        store(before, to_before + c);
-        store(after, to_after + c);
+        lanes_store(before, to_before + c);
+        lanes_store(after, to_after + c);
     }
 }
 
@@ -149,12 +149,12 @@ typedef struct known {
 
 PIA_INLINE leftover leave(const known *row, pia_index c, int lower, int upper, int dim)
 {
-    lanes point = load(row->points + c) - load(row->shift + c);
-    leftover left = {point, point, load(row->x + c) - point};
+    lanes point = lanes_load(row->points + c) - lanes_load(row->shift + c);
+    leftover left = {point, point, lanes_load(row->x + c) - point};
     for (int r = -lower; r <= upper; r++) {
-        lanes entry = load(row->across + r * row->length + c);
-        left.before -= entry * load(row->before + c + r * dim);
-        left.after -= entry * load(row->after + c + r * dim);
+        lanes entry = lanes_load(row->across + r * row->length + c);
+        left.before -= entry * lanes_load(row->before + c + r * dim);
+        left.after -= entry * lanes_load(row->after + c + r * dim);
     }
     left.before *= left.before;
     left.after *= left.after;
@@ -165,8 +165,8 @@ PIA_INLINE leftover leave(const known *row, pia_index c, int lower, int upper, i
 /* The squared length of the point that begins at number c. */
 PIA_INLINE lanes length_at(const double *square, pia_index c, int dim)
 {
-    lanes sum = load(square + c);
-    for (int d = 1; d < dim; d++) sum += load(square + c + d);
+    lanes sum = lanes_load(square + c);
+    for (int d = 1; d < dim; d++) sum += lanes_load(square + c + d);
     return sum;
 }
 
@@ -176,9 +176,9 @@ PIA_INLINE void leave_squares(const strip *s, const known *row, int lower, int u
     double *square = s->square;
     for (pia_index c = 0; c < width; c += LANES) {
         leftover left = leave(row, c, lower, upper, dim);
-        store(left.before, square + c);
-        store(left.after, square + next + c);
-        store(left.moved, square + 2 * next + c);
+        lanes_store(left.before, square + c);
+        lanes_store(left.after, square + next + c);
+        lanes_store(left.moved, square + 2 * next + c);
     }
 }
 
@@ -194,7 +194,7 @@ PIA_INLINE void measure_row(strip *s, const known *row, pia_index first, int low
     for (pia_index c = width - UNIT; c >= 0; c -= UNIT)
         for (int part = PARTS - 1; part >= 0; part--) {
             const pia_index at = c + part * LANES;
-            const lanes count_of = load(counts + at);
+            const lanes count_of = lanes_load(counts + at);
             leftover left;
             if (dim == 1)
                 left = leave(row, at, lower, upper, 1);
@@ -203,7 +203,7 @@ PIA_INLINE void measure_row(strip *s, const known *row, pia_index first, int low
             number -= LANES;
             count(&before, count_of * left.before, part, number);
             count(&after, count_of * left.after, part, number);
-            moved = larger(count_of * left.moved, moved);
+            moved = lanes_upper(count_of * left.moved, moved);
         }
     s->before = before;
     s->after = after;
@@ -214,7 +214,7 @@ PIA_INLINE void store_row(const strip *s, const known *row, double *to)
 {
     const double *x = row->x, *back = s->g->back;
     pia_index wanted = s->line - s->begin < s->g->width ? s->line - s->begin : s->g->width, c = 0;
-    for (; c + LANES <= wanted; c += LANES) store(load(x + c) + load(back + c), to + c);
+    for (; c + LANES <= wanted; c += LANES) lanes_store(lanes_load(x + c) + lanes_load(back + c), to + c);
     for (; c < wanted; c++) to[c] = x[c] + back[c];
 }
 

@@ -4,6 +4,7 @@
  * processors. */
 #include "lanes.h"
 #include "op_curve.h"
+#include "vector_lanes.h"
 #include "windows_group.h"
 
 #include <float.h>
@@ -11,9 +12,6 @@
 #include <string.h>
 
 enum { QUARTERS = LANES / PIA_LANES /* vectors of four in one of these */, LINE = 64 /* bytes of a cache line */ };
-
-typedef double lanes __attribute__((vector_size(LANES * sizeof(double))));
-typedef int64_t masks __attribute__((vector_size(LANES * sizeof(int64_t)))); /* -1: true */
 
 /* Equations low .. low + size - 1 of LANES windows, lane by lane; size is a multiple of PIA_LANES. Arrays over rows have `degree` more
  * of zeros on both sides. */
@@ -60,16 +58,6 @@ PIA_INLINE int all_set(masks mask)
     int64_t every = -1;
     for (int l = 0; l < LANES; l++) every &= mask[l];
     return every != 0;
-}
-
-PIA_INLINE lanes larger(lanes a, lanes b)
-{
-    double x[LANES], y[LANES];
-    memcpy(x, &a, sizeof x);
-    memcpy(y, &b, sizeof y);
-    for (int l = 0; l < LANES; l++) y[l] = x[l] > y[l] ? x[l] : y[l];
-    memcpy(&b, y, sizeof b);
-    return b;
 }
 
 /* history [count x width] of the rows before, nearest first: takes one more. */
@@ -397,7 +385,7 @@ PIA_INLINE void count_squares(const group *g, int inside, pia_errors *errors)
     common_rows(g, inside, &from, &to);
     for (pia_index i = from; i < to; i++) {
         sums += g->square[i];
-        most = larger(g->square[i], most);
+        most = lanes_upper(g->square[i], most);
     }
     for (int l = 0; l < LANES; l++) {
         pia_index own = g->own[l] + inside, end = g->end[l] - inside;
