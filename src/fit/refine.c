@@ -70,10 +70,11 @@ pia_status pia_refine(pia_fit *fit, pia_index iterations)
                         : fit->directions == 1 ? pia_refine_curve(fit)
                                                : pia_refine_surface(fit);
     if (status != PIA_OK) return status;
-    if (fit->solve.stop == PIA_STOP_NONE && !fit->paused)
+    if (fit->solve.stop == PIA_STOP_NONE && !fit->paused) {
         fit->solve.stop = fit->stage.settled = pia_refine_reached(fit) ? PIA_STOP_TOLERANCE : PIA_STOP_NO_KNOT_LEFT;
-    if (fit->solve.stop == PIA_STOP_NO_KNOT_LEFT) note_reachable(fit);
-    if (fit->solve.stop == PIA_STOP_NO_KNOT_LEFT) status = pia_refine_explain(fit);
+        if (fit->solve.stop == PIA_STOP_NO_KNOT_LEFT) note_reachable(fit);
+        if (fit->solve.stop == PIA_STOP_NO_KNOT_LEFT) status = pia_refine_explain(fit);
+    }
     if (status == PIA_OK && fit->solve.stop != PIA_STOP_NONE) status = pia_fit_bind(fit);
     if (status != PIA_OK) return status;
     fit->solve.seconds = pia_seconds() - fit->began;

@@ -89,6 +89,9 @@ pia_status pia_refine_scatter(pia_fit *fit);
 /* Scattered points whose true distance counts: parameters to the foot points, and least squares there. Taken back, with
  * fit->stage.feet 0, where that brings nothing, or loses the tolerance. */
 pia_status pia_refine_move_to_feet(pia_fit *fit);
+/* Before growth: where scattered points mostly lie on sheets over each other, the fit ends with a surface in their middle, and a note
+ * says so: solve.stop is set then. */
+pia_status pia_refine_look_for_sheets(pia_fit *fit);
 /* A note that says why the tolerance cannot be had by scattered points. */
 pia_status pia_refine_explain(pia_fit *fit);
 

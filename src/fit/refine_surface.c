@@ -135,6 +135,8 @@ static pia_status grow_and_spare(pia_fit *fit)
 {
     pia_status status = fit->round == 0 ? pia_refine_solve(fit) : PIA_OK;
     if (status == PIA_OK && fit->round == 0 && fit->solve.rules.trace_every > 0) status = pia_solve_trace(&fit->solve);
+    if (status == PIA_OK) status = pia_refine_look_for_sheets(fit);
+    if (status != PIA_OK || fit->solve.stop != PIA_STOP_NONE) return status;
     pia_stage *stage = &fit->stage;
     int more = pia_refine_helps(fit);
     for (int k = 0; k < MAX_GROWTH && status == PIA_OK && more && !pia_refine_reached(fit) && !pia_refine_stopped(fit); k++) {

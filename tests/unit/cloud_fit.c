@@ -3,6 +3,7 @@
 #include "context_fixture.h"
 
 #include "overlap.h"
+#include "sheets.h"
 
 #include <stdlib.h>
 
@@ -245,6 +246,79 @@ static void overlaps_are_those_of_all_pairs(void **state)
     assert_near(overlap.distance, 0, 0);
 }
 
+/* Heights over a plane: `sheets` of them, 1 apart, at random, and noise. Returns the share that falls apart. */
+static double share_of(pia_context *context, int sheets, double noise, double slope, uint64_t seed)
+{
+    static double uv[2 * COUNT];
+    pia_sheets out;
+    for (int i = 0; i < COUNT; i++) {
+        double u = uv[2 * i] = random_share(&seed), v = uv[2 * i + 1] = random_share(&seed), sum = -3;
+        for (int k = 0; k < 6; k++) sum += random_share(&seed);
+        double sheet = floor(sheets * random_share(&seed));
+        put(i, 4 * u, 4 * v, slope * sin(3 * u) * cos(4 * v) + sheet + noise * sum);
+    }
+    assert_ok(context, pia_sheets_find(context, uv, points, COUNT, 3, 0.1, &out));
+    const double *a = points + 3 * out.row[0], *b = points + 3 * out.row[1];
+    if (out.share > 0) assert_near(out.distance, hypot(hypot(a[0] - b[0], a[1] - b[1]), a[2] - b[2]), 1e-12);
+    assert_true(out.share == 0 || out.distance > 0.1);
+    return out.share;
+}
+
+static void sheets_are_told_from_graphs_noise_and_walls(void **state)
+{
+    for (uint64_t seed = 1; seed <= 20; seed++) {
+        assert_true(share_of(*state, 2, 0, 0.5, seed) > 0.9);
+        assert_true(share_of(*state, 3, 0.03, 0.5, seed) > 0.5);
+        assert_true(share_of(*state, 1, 0, 2, seed) < 0.02);
+        assert_true(share_of(*state, 1, 0.2, 1, seed) < 0.05);
+        assert_true(share_of(*state, 1, 2, 0, seed) < 0.15);
+    }
+    static double uv[2 * COUNT];
+    uint64_t seed = 6;
+    pia_sheets out;
+    for (int i = 0; i < COUNT; i++) { /* stairs, whose risers have no points */
+        for (int d = 0; d < 2; d++) uv[2 * i + d] = random_share(&seed);
+        put(i, 4 * uv[2 * i], 4 * uv[2 * i + 1], floor(3 * uv[2 * i]));
+    }
+    assert_ok(*state, pia_sheets_find(*state, uv, points, COUNT, 3, 0.1, &out));
+    assert_true(out.share < 0.1);
+    for (int i = 0; i < COUNT; i++) uv[2 * i] = uv[2 * i + 1] = 0; /* all at one place */
+    assert_ok(*state, pia_sheets_find(*state, uv, points, 1, 3, 0.1, &out));
+    assert_ok(*state, pia_sheets_find(*state, uv, points, COUNT, 3, 0.1, &out));
+}
+
+/* A whole torus is told of at once, at the parameters and with foot points, and its middle comes back. */
+static void a_closed_solid_is_not_tried(void **state)
+{
+    uint64_t seed = 8;
+    enum { MANY = 6000 };
+    static double torus[3 * MANY];
+    for (int i = 0; i < MANY; i++) {
+        double a = 6.283185307179586 * random_share(&seed), b = 6.283185307179586 * random_share(&seed), r = 2 + 0.7 * cos(b);
+        torus[3 * i] = r * cos(a);
+        torus[3 * i + 1] = r * sin(a);
+        torus[3 * i + 2] = 0.7 * sin(b);
+    }
+    for (int distance = 0; distance < 2; distance++) {
+        pia_data data = cloud(MANY);
+        pia_fit_options options;
+        pia_model *model;
+        pia_report report = {.struct_size = sizeof report};
+        data.points = torus;
+        pia_fit_options_init(&options);
+        options.parametrization = "plane";
+        options.tolerance = 0.02;
+        options.measure_distance = distance;
+        assert_ok(*state, pia_fit_data(*state, &data, &options, &model, &report));
+        assert_int_equal(report.reached, 0);
+        assert_int_equal(report.stop, PIA_STOP_NO_KNOT_LEFT);
+        assert_true(report.control_count < MANY / 4);
+        assert_true(report.rms_error < 0.7);
+        assert_true(has_note(model, "the points lie on sheets over each other: rows "));
+        pia_model_destroy(model);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -255,6 +329,8 @@ int main(void)
         cmocka_unit_test(surfaces_stay_near_their_points_where_there_are_none),
         cmocka_unit_test(sheets_over_each_other_are_named_as_the_reason),
         cmocka_unit_test(overlaps_are_those_of_all_pairs),
+        cmocka_unit_test(sheets_are_told_from_graphs_noise_and_walls),
+        cmocka_unit_test(a_closed_solid_is_not_tried),
     };
     return cmocka_run_group_tests(tests, open_context, close_context);
 }
