@@ -374,7 +374,8 @@ pia_status pia_fit_corners(pia_fit *fit, const pia_index **row, pia_index *count
 int pia_fit_trace(const pia_fit *fit, pia_index index, pia_trace_row *out);
 /* Note (repair, warning, choice made by the library) number `index`; NULL past the end. */
 const char *pia_fit_note(const pia_fit *fit, pia_index index);
-/* Moves one data row; parameters stay. Recomputes only what the point touches, of a curve whose first row it is all sums. */
+/* Moves one data row; parameters stay. Recomputes only what the point touches, of a curve whose first row it is all sums. After method
+ * epia has ended, control points near the row go on, others where they must; a note of the result tells how many, and the rows read. */
 pia_status pia_fit_move_point(pia_fit *fit, pia_index row, const double *point);
 /* Gives one data row another weight (0 drops it). Least-squares methods only. */
 pia_status pia_fit_weigh_point(pia_fit *fit, pia_index row, double weight);

@@ -158,6 +158,7 @@ static void sequence_lines(walk *w, pia_fit *fit, int d)
     if (flags == NULL) w->status = PIA_E_MEMORY;
     if (w->status == PIA_OK) pia_sequence_flags(s, d, flags);
     array(w, d == 0 ? "lines_0" : "lines_1", PIA_SECTION_INDEX, flags, s->lines[d]);
+    array(w, d == 0 ? "curvature_0" : "curvature_1", PIA_SECTION_DOUBLE, s->curvature[d], s->lines[d]);
     if (w->writer == NULL && w->status == PIA_OK && pia_sequence_restore(s, d, flags) != fit->full[d])
         w->status = pia_fail(w->context, PIA_E_FORMAT, "checkpoint: its control parameters do not fit its knots");
     pia_give(w->context, flags);
@@ -173,6 +174,10 @@ static void sequence(walk *w, pia_fit *fit)
     array(w, "lines_loop", PIA_SECTION_DOUBLE, v, 2);
     s->last_error = v[0];
     s->grows = v[1] != 0;
+    pia_index zone[PIA_ZONE_NUMBERS];
+    pia_zone_numbers(fit, zone);
+    array(w, "lines_zone", PIA_SECTION_INDEX, zone, PIA_ZONE_NUMBERS);
+    if (w->writer == NULL && w->status == PIA_OK) pia_zone_restore(fit, zone);
 }
 
 static void rules(walk *w, pia_fit *fit)

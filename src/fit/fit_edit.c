@@ -4,6 +4,7 @@
 #include "number.h"
 #include "options.h"
 #include "refine.h"
+#include "sequence.h"
 
 #include <math.h>
 #include <string.h>
@@ -39,11 +40,14 @@ pia_status pia_fit_refresh(pia_fit *fit, pia_index first_row, pia_index last_row
     return fit->constraint_count > 0 ? pia_fit_bind(fit) : PIA_OK;
 }
 
-/* After a change of one row. */
+/* After a change of one row. Where groups of rows move the control points, only those near the row need to move. */
 static pia_status refresh(pia_fit *fit, pia_index row)
 {
     pia_status status = pia_fit_refresh(fit, row, row);
-    return status == PIA_OK ? pia_fit_restart(fit) : status;
+    if (status != PIA_OK) return status;
+    if (!pia_fit_is_grouped(fit)) return pia_fit_restart(fit);
+    status = pia_zone_edit(fit, row);
+    return status == PIA_OK ? pia_solve_restart(&fit->solve, &fit->method_values, &fit->limiter_values) : status;
 }
 
 pia_status pia_fit_reassemble(pia_fit *fit)

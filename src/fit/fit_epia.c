@@ -21,10 +21,35 @@ static pia_status go_on(pia_fit *fit, double moved)
     pia_solve *solve = &fit->solve;
     pia_index first = solve->first_iteration;
     pia_status status = pia_fit_bind(fit);
-    if (status == PIA_OK) status = pia_fit_restart(fit);
+    if (status == PIA_OK) status = pia_solve_restart(solve, &fit->method_values, &fit->limiter_values);
     solve->first_iteration = first;
     fit->iterate.adjust_max = moved;
     return status;
+}
+
+/* The worst rows get control points of their own. */
+static pia_status grow(pia_fit *fit, double moved)
+{
+    pia_sequence *s = fit->sequence;
+    pia_index picked;
+    int settled;
+    pia_status status = pia_zone_settle(fit, &settled);
+    if (status != PIA_OK || !settled) return status;
+    status = pia_sequence_pick(fit, (pia_index)fit->method_values.number[PIA_EPIA_INSERT], &picked);
+    if (status != PIA_OK) return status;
+    if (picked == 0 && s->zone.open) {
+        pia_zone_release(fit);
+        return PIA_OK;
+    }
+    if (picked == 0) { /* every line has its control point: from here on this is PIA, which ends by itself */
+        s->grows = 0;
+        fit->solve.rules.change = fmax(fit->solve.rules.change, PIA_FIT_CHANGE * fit->extent);
+        return PIA_OK;
+    }
+    pia_zone_reach_added(fit);
+    fit->round++;
+    status = pia_sequence_grow(fit, 1);
+    return status == PIA_OK ? go_on(fit, moved) : status;
 }
 
 static pia_status revise(pia_iterate *iterate)
@@ -32,19 +57,23 @@ static pia_status revise(pia_iterate *iterate)
     pia_fit *fit = iterate->owner;
     pia_sequence *s = fit->sequence;
     double error = iterate->errors.max, before = s->last_error, moved = iterate->adjust_max;
-    pia_index picked;
+    int wider;
     s->last_error = error;
-    if (!s->grows || !(fit->solve.rules.tolerance > 0) || (!(moved < threshold(fit)) && !(error > before))) return PIA_OK;
-    pia_status status = pia_sequence_pick(fit, (pia_index)fit->method_values.number[PIA_EPIA_INSERT], &picked);
-    if (status != PIA_OK) return status;
-    if (picked == 0) { /* every line has its control point: from here on this is PIA, which ends by itself */
-        s->grows = 0;
-        fit->solve.rules.change = fmax(fit->solve.rules.change, PIA_FIT_CHANGE * fit->extent);
-        return PIA_OK;
-    }
-    fit->round++;
-    status = pia_sequence_grow(fit, 1);
-    return status == PIA_OK ? go_on(fit, moved) : status;
+    pia_status status = pia_zone_update(fit, moved, &wider);
+    if (status != PIA_OK || wider) return status;
+    int settled = moved < threshold(fit) || error > before;
+    return s->grows && fit->solve.rules.tolerance > 0 && settled ? grow(fit, moved) : PIA_OK;
+}
+
+pia_status pia_epia_step(pia_fit *fit, pia_index iterations)
+{
+    pia_solve *solve = &fit->solve;
+    pia_index done = fit->iterate.iteration;
+    pia_status status = pia_solve_step(solve, iterations);
+    if (status != PIA_OK || solve->stop != PIA_STOP_CHANGE || !fit->sequence->zone.open) return status;
+    pia_zone_release(fit);
+    solve->stop = PIA_STOP_NONE;
+    return pia_solve_step(solve, iterations - (fit->iterate.iteration - done));
 }
 
 /* ---- groups ---- */
@@ -66,6 +95,21 @@ static pia_index nearest_control(const pia_sequence *s, int d, pia_index control
         pia_index middle = a + (b - a) / 2;
         double between = s->parameter[d][s->chosen[d][middle]] / 2 + s->parameter[d][s->chosen[d][middle + 1]] / 2;
         if (t < between)
+            b = middle;
+        else
+            a = middle + 1;
+    }
+    return a;
+}
+
+pia_index pia_epia_owner(const pia_fit *fit, int d, pia_index line)
+{
+    const pia_sequence *s = fit->sequence;
+    pia_index a = 0, b = fit->full[d] - 1;
+    if (fit->kind == PIA_SCATTERED) return nearest_control(s, d, fit->full[d], s->parameter[d][line]);
+    while (a < b) {
+        pia_index middle = a + (b - a) / 2;
+        if (line < s->first[d][middle + 1])
             b = middle;
         else
             a = middle + 1;
@@ -114,7 +158,7 @@ pia_status pia_epia_group(pia_fit *fit)
     s->groups.row = s->row;
     fit->iterate.groups = &s->groups;
     fit->solve.revise = revise;
-    return status;
+    return status == PIA_OK ? pia_zone_bind(fit) : status;
 }
 
 /* ---- the start of scattered points ---- */
@@ -262,4 +306,5 @@ void pia_epia_outcome(pia_fit *fit)
         (long long)fit->round, (long long)fit->op->cols, (long long)iterate->iteration, iterate->adjust_max, iterate->errors.max);
     if (empty > 0)
         pia_note_add(memory, &fit->outcome, "epia: %lld control points have no data in their group and did not move", (long long)empty);
+    pia_zone_outcome(fit);
 }

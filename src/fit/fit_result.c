@@ -3,12 +3,14 @@
 
 #include "options.h"
 #include "refine.h"
+#include "sequence.h"
 
 #include <math.h>
 #include <string.h>
 
 static pia_status step(pia_fit *fit, pia_index iterations)
 {
+    if (pia_fit_is_grouped(fit)) return pia_epia_step(fit, iterations);
     return fit->robust.loss != PIA_LOSS_NONE ? pia_fit_robust_step(fit, iterations) : pia_solve_step(&fit->solve, iterations);
 }
 

@@ -54,6 +54,7 @@ void pia_refine_reopen(pia_fit *fit)
 {
     fit->stage = (pia_stage){.spares = 1, .feet = 1};
     fit->relaxation = 0;
+    pia_zone_close(fit);
 }
 
 pia_status pia_refine(pia_fit *fit, pia_index iterations)

@@ -107,6 +107,7 @@ void pia_sequence_close(pia_fit *fit)
 {
     pia_sequence *s = fit->sequence;
     if (s == NULL) return;
+    pia_zone_close(fit);
     for (int d = 0; d < 2; d++) {
         void *blocks[] = {s->distinct[d], s->curvature[d], s->mark[d], s->own[d], s->chosen[d], s->first[d], s->begin[d], s->end[d]};
         for (size_t k = 0; k < sizeof blocks / sizeof *blocks; k++) pia_give(fit->context, blocks[k]);

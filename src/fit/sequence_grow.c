@@ -8,7 +8,7 @@
 
 /* ---- picking ---- */
 
-static pia_index line_of(const pia_fit *fit, pia_index row, int d)
+pia_index pia_sequence_line(const pia_fit *fit, pia_index row, int d)
 {
     const pia_sequence *s = fit->sequence;
     if (fit->kind != PIA_SCATTERED) return d == 0 ? row / fit->count[1] : row % fit->count[1];
@@ -23,7 +23,7 @@ static pia_index line_of(const pia_fit *fit, pia_index row, int d)
     return a;
 }
 
-/* The worst row that has a line neither chosen nor blocked; -1: none. */
+/* The worst row that has a line neither chosen nor blocked, and an owner that moves; -1: none. */
 static pia_index worst_row(const pia_fit *fit, unsigned char *const blocked[2], double *error)
 {
     const pia_sequence *s = fit->sequence;
@@ -36,10 +36,10 @@ static pia_index worst_row(const pia_fit *fit, unsigned char *const blocked[2], 
         for (int d = 0; d < fit->dim; d++) square += r[d] * r[d];
         if (!(square > most)) continue;
         for (int d = 0; d < fit->directions; d++) {
-            pia_index line = line_of(fit, row, d);
+            pia_index line = pia_sequence_line(fit, row, d);
             open |= s->mark[d][line] == PIA_LINE_FREE && !blocked[d][line];
         }
-        if (!open) continue;
+        if (!open || !pia_zone_owns(fit, row)) continue;
         most = square;
         worst = row;
     }
@@ -70,7 +70,7 @@ pia_status pia_sequence_pick(pia_fit *fit, pia_index most, pia_index *picked)
         double error;
         pia_index row = worst_row(fit, blocked, &error);
         if (row < 0 || (*picked > 0 && error <= fit->solve.rules.tolerance)) break;
-        for (int d = 0; d < fit->directions; d++) add_line(s, d, line_of(fit, row, d), blocked[d]);
+        for (int d = 0; d < fit->directions; d++) add_line(s, d, pia_sequence_line(fit, row, d), blocked[d]);
         ++*picked;
     }
     for (int d = 0; d < 2; d++) pia_give(fit->context, blocked[d]);

@@ -47,11 +47,19 @@ static tally add_group(const pass *p, pia_index c, int lengths)
     return t;
 }
 
+static int moves(const pia_groups *g, pia_index c)
+{
+    pia_index at[2] = {c / g->count[1], c % g->count[1]};
+    const pia_block *m = g->moving;
+    return m == NULL || (at[0] >= m->low[0] && at[0] < m->high[0] && at[1] >= m->low[1] && at[1] < m->high[1]);
+}
+
 static void mean_chunk(void *work, pia_index chunk)
 {
     const pass *p = work;
     for (pia_index c = pia_chunk_begin(p->count, p->chunks, chunk); c < pia_chunk_begin(p->count, p->chunks, chunk + 1); c++) {
-        tally t = add_group(p, c, 0);
+        tally t = {0};
+        if (moves(p->groups, c)) t = add_group(p, c, 0);
         for (int d = 0; d < p->dim; d++) p->out[c * p->dim + d] = t.rows > 0 ? p->factor * (t.sum[d] / (double)t.rows) : 0;
     }
 }
@@ -85,6 +93,22 @@ void pia_groups_agreement(pia_context *context, const pia_groups *groups, const 
 {
     pass p = pass_over(groups, values, dim, 1, agreement);
     pia_for_each(context, p.chunks, agreement_chunk, &p);
+}
+
+double pia_groups_longest(const pia_groups *groups, const double *values, int dim, const pia_block *box)
+{
+    pass p = pass_over(groups, values, dim, 1, NULL);
+    double longest = 0;
+    for (pia_index a = box->low[0]; a < box->high[0]; a++)
+        for (pia_index b = box->low[1]; b < box->high[1]; b++) {
+            pia_index c = a * groups->count[1] + b;
+            double square = 0;
+            if (moves(groups, c)) continue;
+            tally t = add_group(&p, c, 0);
+            for (int d = 0; d < dim && t.rows > 0; d++) square += (t.sum[d] / (double)t.rows) * (t.sum[d] / (double)t.rows);
+            longest = fmax(longest, sqrt(square));
+        }
+    return longest;
 }
 
 pia_index pia_groups_empty(const pia_groups *groups)

@@ -1,6 +1,7 @@
 #include "iterate.h"
 
 #include "kernel.h"
+#include "part.h"
 
 #include <math.h>
 
@@ -91,7 +92,8 @@ void pia_iterate_add(const pia_iterate *iterate, double *x, const double *y)
 void pia_iterate_measure(pia_iterate *iterate)
 {
     if (iterate->errors_known) return;
-    iterate->errors = pia_op_residual(iterate->op, iterate->points, &iterate->targets, iterate->residual);
+    iterate->errors = iterate->part != NULL ? pia_part_residual(iterate->part, iterate->points, &iterate->targets, iterate->residual)
+                                            : pia_op_residual(iterate->op, iterate->points, &iterate->targets, iterate->residual);
     iterate->errors_known = 1;
 }
 

@@ -6,6 +6,7 @@
 
 struct pia_constraints;
 struct pia_groups;
+struct pia_part;
 
 typedef struct pia_iterate {
     pia_context *context;
@@ -22,6 +23,7 @@ typedef struct pia_iterate {
     double right_norm;                   /* |A'W(Q - origin)|, the scale of relative gradients; 0: unknown, gradients are absolute */
     struct pia_constraints *constraints; /* NULL: none */
     const struct pia_groups *groups;     /* of the rows, owned by the fit; NULL unless the method needs groups */
+    struct pia_part *part;               /* the rows that can still change, owned by the fit; NULL: all */
     pia_index iteration;                 /* updates done */
     pia_errors errors;                   /* of P, when errors_known */
     int errors_known;

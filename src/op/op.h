@@ -11,6 +11,11 @@
 
 typedef struct pia_op pia_op;
 
+/* low .. high - 1 of each direction: control points, spans or data lines. Of a curve 0 .. 0 in the second. */
+typedef struct pia_block {
+    pia_index low[2], high[2];
+} pia_block;
+
 /* Deviation of the rows from their targets. */
 typedef struct pia_errors {
     double max;         /* largest Euclidean deviation; 0 without rows */
