@@ -96,23 +96,29 @@ pia_status pia_refine_install(pia_fit *fit, const double *knots, pia_index contr
     return status == PIA_OK ? pia_fit_assemble(fit) : status;
 }
 
-pia_status pia_refine_place(pia_fit *fit, int d, const double *inside, pia_index count)
+double *pia_refine_knots(const pia_fit *fit, int d, const double *inside, pia_index count)
 {
     int p = fit->degree[d];
     double low = fit->knots[d][p], high = fit->knots[d][fit->full[d]];
     pia_index control = fit->closed[d] ? count + 1 : count + p + 1, full = control + (fit->closed[d] ? p : 0);
     double *knots = pia_take(fit->context, full + p + 1, sizeof *knots);
-    if (knots == NULL) return PIA_E_MEMORY;
-    for (pia_index i = 0; i < full + p + 1; i++) {
+    for (pia_index i = 0; knots != NULL && i < full + p + 1; i++) {
         pia_index k = i - p; /* 0: the first knot of the domain */
         pia_index period = fit->closed[d] ? (k >= 0 ? k / control : -((control - 1 - k) / control)) : 0;
         k -= period * control;
         knots[i] = k <= 0 ? low : k <= count ? inside[k - 1] : high;
         knots[i] += (double)period;
     }
+    return knots;
+}
+
+pia_status pia_refine_place(pia_fit *fit, int d, const double *inside, pia_index count)
+{
+    double *knots = pia_refine_knots(fit, d, inside, count);
+    if (knots == NULL) return PIA_E_MEMORY;
     pia_give(fit->context, fit->knots[d]);
     fit->knots[d] = knots;
-    fit->full[d] = full;
+    fit->full[d] = count + fit->degree[d] + 1;
     return fit->closed[d] && fit->kind != PIA_SCATTERED ? pia_fit_turn(fit, d) : PIA_OK;
 }
 

@@ -106,6 +106,8 @@ pia_status pia_refine_factor(pia_fit *fit);
 
 /* The knots strictly inside the domain of one direction, rising [count]; the domain stays. The operator is not yet made anew. */
 pia_status pia_refine_place(pia_fit *fit, int direction, const double *inside, pia_index count);
+/* The same as an array of the caller's; NULL: no memory. */
+double *pia_refine_knots(const pia_fit *fit, int direction, const double *inside, pia_index count);
 /* How little knot number degree + 1 of knot [2 degree + 3] does: the jump of the highest derivative there, as the distance that the
  * curve with control points [(degree + 2) x dim] would move over the spans beside it. */
 double pia_refine_knot_cost(const double *knot, const double *points, int degree, int dim);

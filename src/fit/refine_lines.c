@@ -1,5 +1,6 @@
 /* Whole knot lines are taken away, the cheapest first and many at a time as long as that works, each time with a fit of the whole. */
 #include "refine.h"
+#include "refine_tiles.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -19,6 +20,7 @@ typedef struct trial {
     unsigned char *gone; /* [count] by number of the knot */
     double *failed;      /* [count] knots that were tried alone in vain */
     pia_index failures;
+    pia_tiles *tiles; /* where the fit suits them; else NULL */
 } trial;
 
 static int by_cost(const void *a, const void *b)
@@ -73,6 +75,42 @@ static pia_index choose(const pia_fit *fit, int d, pia_index batch, trial *t)
     return going;
 }
 
+/* The fit as the tiles have found it, taken back where it does not keep the tolerance after all. */
+static pia_status take_over(pia_fit *fit, const pia_tiles *tiles, int *taken)
+{
+    pia_saved before;
+    pia_status status = pia_refine_save(fit, &before);
+    if (status != PIA_OK) return status;
+    for (int d = 0; d < 2 && status == PIA_OK; d++)
+        status = pia_refine_place(fit, d, tiles->line[d].knots + fit->degree[d] + 1, tiles->line[d].count - fit->degree[d] - 1);
+    if (status == PIA_OK) status = pia_fit_assemble(fit);
+    if (status == PIA_OK) {
+        pia_tiles_control(tiles, fit->iterate.points);
+        pia_iterate_measure(&fit->iterate);
+        *taken = pia_refine_reached(fit);
+        if (!*taken) status = pia_refine_go_back(fit, &before);
+    }
+    pia_refine_drop(fit, &before);
+    return status;
+}
+
+static pia_status try_on_tiles(pia_fit *fit, int d, trial *t, pia_index kept, int *taken)
+{
+    pia_projection_line before;
+    int found = 0;
+    pia_status status = pia_tiles_place(t->tiles, d, t->kept, kept, &before);
+    if (status != PIA_OK) return status;
+    status = pia_tiles_search(t->tiles, &found);
+    if (status == PIA_OK && found) status = take_over(fit, t->tiles, taken);
+    if (*taken) {
+        pia_projection_line_close(fit->context, &before);
+        pia_tiles_keep(t->tiles);
+    } else {
+        pia_tiles_put_back(t->tiles, d, &before);
+    }
+    return status;
+}
+
 /* The fit without the marked lines, taken back when the tolerance does not hold. */
 static pia_status try_without(pia_fit *fit, int d, trial *t, int *taken)
 {
@@ -81,6 +119,7 @@ static pia_status try_without(pia_fit *fit, int d, trial *t, int *taken)
     pia_index count = pia_refine_inside_count(fit, d), kept = 0;
     for (pia_index k = 0; k < count; k++)
         if (!t->gone[k]) t->kept[kept++] = inside[k];
+    if (t->tiles != NULL) return try_on_tiles(fit, d, t, kept, taken);
     pia_status status = pia_refine_save(fit, &before);
     if (status != PIA_OK) return status;
     status = pia_refine_refit(fit, d, t->kept, kept);
@@ -117,10 +156,11 @@ static pia_status spare_lines(pia_fit *fit, int d, int many, trial *t, pia_index
     return status;
 }
 
-static pia_status spare_direction(pia_fit *fit, int d, int many, pia_index *spared)
+static pia_status spare_direction(pia_fit *fit, pia_tiles *tiles, int d, int many, pia_index *spared)
 {
     pia_index count = pia_refine_inside_count(fit, d);
-    trial t = {.order = pia_take(fit->context, count, sizeof *t.order),
+    trial t = {.tiles = tiles,
+               .order = pia_take(fit->context, count, sizeof *t.order),
                .kept = pia_take(fit->context, count, sizeof *t.kept),
                .gone = pia_take(fit->context, count, 1),
                .failed = pia_take(fit->context, count, sizeof *t.failed)};
@@ -135,9 +175,14 @@ static pia_status spare_direction(pia_fit *fit, int d, int many, pia_index *spar
 
 pia_status pia_refine_spare_lines(pia_fit *fit, pia_index *spared)
 {
-    pia_status status = PIA_OK;
+    pia_tiles tiles;
+    int tiled = pia_tiles_suit(fit);
+    pia_status status = tiled ? pia_tiles_open(fit, &tiles) : PIA_OK;
     *spared = 0;
+    if (status != PIA_OK) return status;
     for (int many = 1; many >= 0; many--)
-        for (int d = 0; d < fit->directions && status == PIA_OK; d++) status = spare_direction(fit, d, many, spared);
-    return status;
+        for (int d = 0; d < fit->directions && status == PIA_OK; d++)
+            status = spare_direction(fit, tiled ? &tiles : NULL, d, many, spared);
+    pia_status left = tiled ? pia_tiles_close(&tiles) : PIA_OK;
+    return status == PIA_OK ? left : status;
 }

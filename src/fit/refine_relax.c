@@ -6,6 +6,8 @@
 #include "clones.h"
 #include "constraint.h"
 #include "kernel.h"
+#include "refine_relax.h"
+#include "refine_tiles.h"
 
 #include <math.h>
 #include <string.h>
@@ -18,8 +20,11 @@ enum { ROUNDS = 64, LOOK = 8, GRAIN = 4096, CHUNKS = 64 };
 /* Rounds times rows in one refinement: a few seconds. */
 static const double MOST = 1.5e8;
 
-/* Rows are brought a little inside of what they may deviate, so that the spline comes in with them. */
-static const double INSIDE = 0.999;
+int pia_relax_is_vain(pia_index rounds, double best)
+{
+    if (rounds == 0) return best > FAR;
+    return rounds >= ROUNDS || (rounds % LOOK == 0 && best > 1 + LATE * exp2(-(double)rounds / HALF));
+}
 
 typedef struct round_work {
     const pia_fit *fit;
@@ -47,7 +52,7 @@ static void reflect_within(const double *a, double allowed, const double *axis, 
     memcpy(before, x, (size_t)dim * sizeof *before);
     reflect(a, allowed, dim, x, missing);
     for (int d = 0; d < dim; d++) {
-        double most = INSIDE * axis[d], b = x[d] - before[d] + a[d];
+        double most = PIA_INSIDE * axis[d], b = x[d] - before[d] + a[d];
         x[d] = before[d] + fmax(-most, fmin(b, most)) - a[d];
         missing[d] = a[d] - x[d];
     }
@@ -61,7 +66,7 @@ static void reflect_chunk(void *work, pia_index chunk)
     pia_index begin = pia_chunk_begin(fit->rows, w->chunks, chunk), end = pia_chunk_begin(fit->rows, w->chunks, chunk + 1);
     for (pia_index row = begin; row < end; row++) {
         const double *a = fit->iterate.residual + row * dim;
-        double *x = w->x + row * dim, *missing = w->missing + row * dim, allowed = INSIDE * pia_refine_allowed(fit, row);
+        double *x = w->x + row * dim, *missing = w->missing + row * dim, allowed = PIA_INSIDE * pia_refine_allowed(fit, row);
         if (fit->axis_tolerances != NULL)
             reflect_within(a, allowed, fit->axis_tolerances, dim, x, missing);
         else if (dim == 3)
@@ -102,9 +107,7 @@ static pia_status search(pia_fit *fit, double *x, double *missing)
         status = project(fit, missing);
     }
     double ratio = pia_refine_worst_of_all(fit), best = ratio;
-    if (ratio > FAR) return status;
-    for (; k < ROUNDS && status == PIA_OK && ratio > 1; k++) {
-        if (k > 0 && k % LOOK == 0 && best > 1 + LATE * exp2(-(double)k / HALF)) break;
+    for (; status == PIA_OK && ratio > 1 && !pia_relax_is_vain(k, best); k++) {
         pia_for_each(fit->context, w.chunks, reflect_chunk, &w);
         status = project(fit, missing);
         ratio = pia_refine_worst_of_all(fit);
@@ -121,10 +124,39 @@ static void keep(pia_fit *fit, double *x)
     fit->relaxed = x;
 }
 
+/* The same on tiles. */
+static pia_status relax_on_tiles(pia_fit *fit)
+{
+    pia_tiles tiles;
+    pia_saved before;
+    int found = 0;
+    if (pia_refine_worst_of_all(fit) > FAR) return PIA_OK;
+    pia_status status = pia_refine_save(fit, &before);
+    if (status != PIA_OK) return status;
+    status = pia_tiles_open(fit, &tiles);
+    if (status == PIA_OK) {
+        status = pia_tiles_search(&tiles, &found);
+        if (found) {
+            pia_tiles_control(&tiles, fit->iterate.points);
+            fit->iterate.errors_known = 0;
+            pia_iterate_measure(&fit->iterate);
+            if (pia_refine_reached(fit))
+                pia_tiles_keep(&tiles);
+            else
+                status = pia_refine_go_back(fit, &before);
+        }
+        pia_status left = pia_tiles_close(&tiles);
+        if (status == PIA_OK) status = left;
+    }
+    pia_refine_drop(fit, &before);
+    return status;
+}
+
 pia_status pia_refine_relax(pia_fit *fit)
 {
     pia_index size = fit->op->cols * fit->dim, rows = fit->rows * fit->dim;
     if (pia_refine_reached(fit) || fit->relaxation > MOST || fit->weights != NULL || fit->options.fairing > 0) return PIA_OK;
+    if (pia_tiles_suit(fit)) return relax_on_tiles(fit);
     if (fit->factored == 0) {
         pia_status status = pia_refine_factor(fit);
         if (status != PIA_OK) return status;
