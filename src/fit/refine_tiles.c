@@ -254,7 +254,8 @@ void pia_tiles_control(const pia_tiles *t, double *control)
         for (pia_index i = 0; i < count[0]; i++)
             for (pia_index j = 0; j < count[1]; j++) {
                 double *to = &control[(i * count[1] + j) * fit->dim + d];
-                *to = single >= 0 ? t->single[single][(single == 0 ? i : j) * PIA_TILE + l] : pia_projection_control(&t->projection, c, i, j);
+                *to = single >= 0 ? t->single[single][(single == 0 ? i : j) * PIA_TILE + l]
+                                  : pia_projection_control(&t->projection, c, i, j);
             }
         c += single < 0;
     }

@@ -1,6 +1,6 @@
 /* Relaxation on a grid: the same search as refine_relax.c, on tiles of columns, without all that a fit does beside it. Components that
- * vary along one direction alone, as x and y of heights over a lattice do, are fitted by least squares of a curve, and what they deviate
- * is taken off what the others may. */
+ * vary along one direction alone, as x and y of heights over a lattice do, are fitted by least squares of a curve, and what they
+ * deviate is taken off what the others may. */
 #ifndef PIA_FIT_REFINE_TILES_H
 #define PIA_FIT_REFINE_TILES_H
 
@@ -13,15 +13,15 @@ typedef struct pia_tiles {
     int direction[PIA_MAX_DIM];      /* of all: the one along which it varies alone and is not relaxed; -1: it is */
     pia_projection_line line[2];
     pia_projection projection;
-    double *points;           /* [tiles x dim x rows x PIA_TILE] relative to the origin; 0 past the last column */
-    double *moved, *next;     /* [the same] the points as they have been moved by the last search that succeeded, and by this one: the
-                                 nearest spline to them keeps the tolerance */
-    double *radius;           /* [tiles x rows x PIA_TILE] what the relaxed components may deviate */
-    double *single[2];        /* [count x PIA_TILE] coefficients of components that vary along a direction, one a lane */
-    double *squares[2];       /* [rows of the direction] what they deviate, squared */
-    double *worst;            /* [tiles] largest square of a deviation over the radius, beyond 1 */
-    double *room;             /* [longer direction x 2 PIA_TILE] */
-    int moves;                /* 1: moved is there */
+    double *points;       /* [tiles x dim x rows x PIA_TILE] relative to the origin; 0 past the last column */
+    double *moved, *next; /* [the same] the points as they have been moved by the last search that succeeded, and by this one: the
+                             nearest spline to them keeps the tolerance */
+    double *radius;       /* [tiles x rows x PIA_TILE] what the relaxed components may deviate */
+    double *single[2];    /* [count x PIA_TILE] coefficients of components that vary along a direction, one a lane */
+    double *squares[2];   /* [rows of the direction] what they deviate, squared */
+    double *worst;        /* [tiles] largest square of a deviation over the radius, beyond 1 */
+    double *room;         /* [longer direction x 2 PIA_TILE] */
+    int moves;            /* 1: moved is there */
 } pia_tiles;
 
 /* Whether a fit can be relaxed on tiles. */

@@ -125,8 +125,8 @@ pia_status pia_projection_line_open(pia_context *context, int degree, double *kn
                                     pia_index rows, pia_projection_line *out)
 {
     pia_projection_line line = {.knots = knots, .count = count};
-    pia_status status = pia_collocation_open(context, degree, PIA_MAP_IDENTITY, 0, knots, count, parameters, rows, PIA_STORE_VALUES,
-                                             &line.basis);
+    pia_status status =
+        pia_collocation_open(context, degree, PIA_MAP_IDENTITY, 0, knots, count, parameters, rows, PIA_STORE_VALUES, &line.basis);
     line.factor = status == PIA_OK ? pia_take(context, count, (size_t)(degree + 1) * sizeof(double)) : NULL;
     if (status == PIA_OK && line.factor == NULL) status = pia_take_status(context, count, (size_t)(degree + 1) * sizeof(double));
     if (status != PIA_OK) {
@@ -164,8 +164,7 @@ PIA_CLONES static void transpose(const double *from, double *to)
     for (int i = 0; i < HALVES; i++)
         for (int j = 0; j < HALVES; j++) {
             pia_lanes square[PIA_LANES];
-            for (int k = 0; k < PIA_LANES; k++)
-                square[k] = pia_vector_load(from + (i * PIA_LANES + k) * PIA_TILE + j * PIA_LANES);
+            for (int k = 0; k < PIA_LANES; k++) square[k] = pia_vector_load(from + (i * PIA_LANES + k) * PIA_TILE + j * PIA_LANES);
             pia_lanes_transpose(square);
             for (int k = 0; k < PIA_LANES; k++) pia_lanes_write(square[k], to + (j * PIA_LANES + k) * PIA_TILE + i * PIA_LANES);
         }
@@ -257,7 +256,8 @@ void pia_projection_find(pia_projection *p)
 
 pia_status pia_projection_open(pia_context *context, const pia_index rows[2], const pia_index most[2], int dim, pia_projection *out)
 {
-    pia_projection p = {.context = context, .dim = dim, .tiles = tiles_of(rows[1]), .chunks = pia_chunk_count(rows[0] * rows[1] * dim, GRAIN)};
+    pia_projection p = {
+        .context = context, .dim = dim, .tiles = tiles_of(rows[1]), .chunks = pia_chunk_count(rows[0] * rows[1] * dim, GRAIN)};
     const size_t tile = (size_t)(dim * PIA_TILE) * sizeof(double);
     if (p.chunks > MOST_CHUNKS) p.chunks = MOST_CHUNKS;
     pia_index across = tiles_of(most[0]), down = p.tiles * across * PIA_TILE, control = across * most[1];

@@ -32,11 +32,11 @@ typedef struct pia_projection {
     pia_context *context;
     const pia_projection_line *line[2]; /* down the rows of the grid, and along them; borrowed */
     int dim;
-    pia_index tiles;   /* of columns of the grid */
-    double *down;      /* [tiles x dim x count[0] and up to a tile more x PIA_TILE] coefficients down each column of the spline */
-    double *along;     /* [dim x tiles of count[0] x rows and up to a tile more x PIA_TILE] the same of the values, side by side */
-    double *control;   /* [dim x tiles of count[0] x count[1] x PIA_TILE] control points of the spline */
-    double *room;      /* [chunks x ...] */
+    pia_index tiles; /* of columns of the grid */
+    double *down;    /* [tiles x dim x count[0] and up to a tile more x PIA_TILE] coefficients down each column of the spline */
+    double *along;   /* [dim x tiles of count[0] x rows and up to a tile more x PIA_TILE] the same of the values, side by side */
+    double *control; /* [dim x tiles of count[0] x count[1] x PIA_TILE] control points of the spline */
+    double *room;    /* [chunks x ...] */
     pia_index chunks;
 } pia_projection;
 
