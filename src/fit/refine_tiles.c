@@ -296,6 +296,9 @@ static void choose_components(pia_tiles *t)
             }
         if (t->direction[d] < 0) t->component[t->dim++] = d;
     }
+    if (t->dim > 0) return;
+    t->direction[0] = -1; /* one at least is relaxed */
+    t->component[t->dim++] = 0;
 }
 
 static pia_status take_arrays(pia_tiles *t)
