@@ -10,7 +10,7 @@
 /* A component is fitted on its own as long as it takes at most so much of the tolerance. */
 static const double QUIET = 0.25;
 
-/* Rounds times rows in one refinement, of which a round takes a fifth of what it takes elsewhere. */
+/* Rounds times rows in one refinement; more than on the operator, for a round is quicker here. */
 static const double MOST = 6e8;
 
 int pia_tiles_suit(const pia_fit *fit)
